@@ -7,7 +7,7 @@ Sources that are included into one file share its scope. What one of them declar
 namespace, `static` or by `using`) must therefore not be a name that another one uses (of a function: calls), unless both
 mean the same by the same `using`. Where it is one, a source goes into another batch, or its name gets a suffix in the
 batch: all headers are included in front, so that the macro that does it sees the source alone. Nor do sources share a
-batch where headers beside them declare the same name twice: of two overloads neither sees the other alone.
+batch where headers next to them declare the same name twice: of two overloads neither sees the other alone.
 """
 import collections
 import os
@@ -65,7 +65,7 @@ class Source:
     called:     those that a parenthesis or a template's arguments follow
     fixed:      names that must stay as they are: those of members, of other namespaces and of tests
     opened:     namespaces besides the project's that it opens to all of the file (`using namespace`)
-    spaces:     namespaces called as a library's that it and headers beside it are in
+    spaces:     namespaces called as a library's that it and headers next to it are in
     """
 
     def __init__(self, path):
@@ -93,7 +93,7 @@ class Source:
             print(error, file=sys.stderr)
             self.plain = False  # it stays alone
         self.mentioned = self.used | self.fixed
-        self.headers = {}  # names that headers beside the source declare -> those headers
+        self.headers = {}  # names that headers next to the source declare -> those headers
         self.follow(path, set())
 
     def follow(self, path, seen):
@@ -176,7 +176,7 @@ class Source:
 
     def sees_more(self, other):
         """Whether the other one brings a namespace by whose name this one means a library's (solidus::testing), or its
-        headers declare a name anew that this one has from its own."""
+        headers declare a name again that this one has from its own."""
         return bool((other.spaces - self.spaces) & self.used) or any(
             name in self.mentioned and not other.headers.get(name, found) <= found
             for name, found in self.headers.items())

@@ -12,7 +12,7 @@ install(DIRECTORY python DESTINATION ${shared} COMPONENT program PATTERN __pycac
 install(DIRECTORY cases DESTINATION ${shared} COMPONENT program PATTERN __pycache__ EXCLUDE PATTERN results EXCLUDE)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
 install(FILES README.md CHANGELOG.md LICENSE SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-# The version stands in CMakeLists.txt alone: what is installed says in its citation which one it is.
+# The version is in CMakeLists.txt alone: what is installed says in its citation which one it is.
 file(READ CITATION.cff citation)
 file(WRITE ${PROJECT_BINARY_DIR}/made/CITATION.cff "${citation}version: \"${SOLIDUS_PACKAGE_VERSION}\"\n")
 install(FILES ${PROJECT_BINARY_DIR}/made/CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -18,7 +18,7 @@ file(GLOB python_sources CONFIGURE_DEPENDS src/python/*.cpp)
 pybind11_add_module(solidus_python MODULE NO_EXTRAS ${python_sources} src/app/built_version.cpp)
 add_dependencies(solidus_python solidus_program_version solidus_reader) # a reader of another commit is refused
 target_link_libraries(solidus_python PRIVATE solidus_run solidus_point)
-# Beside the program, where the package of the sources looks for it; never below python/, where it would be of one build among several.
+# Next to the program, where the package of the sources looks for it; never below python/, where it would be of one build among several.
 set_target_properties(solidus_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
 # What it shares with other modules of the process is Python, MPI and PETSc: its own symbols stay its own.
 target_link_options(solidus_python PRIVATE -Wl,--exclude-libs,ALL)

@@ -2,7 +2,7 @@
 # commit, X.Y.Z+20261122.4b0355f, and with ".modified" where sources were changed since. An archive that git made (git archive) has
 # both in cmake/commit.txt; one without them has the project's version alone.
 #
-# Included by CMakeLists.txt it makes the header app/program_version.hpp, which only src/app/built_version.cpp includes, anew with each
+# Included by CMakeLists.txt it makes the header app/program_version.hpp, which only src/app/built_version.cpp includes, once more with each
 # build; run as a script (-DSOURCES=… -DBASE=… -DHEADER=…) it writes the header where the version has changed.
 function(solidus_git output)
   execute_process(COMMAND git -C "${SOURCES}" ${ARGN} OUTPUT_VARIABLE text ERROR_QUIET RESULT_VARIABLE failed

@@ -1,5 +1,5 @@
 /// Messages between processes that arrive in many orders: each process waits at random before it sends.
-/// Included by one source of a test program, whose own functions of MPI then stand before the library's.
+/// Included by one source of a test program, whose own functions of MPI then come before the library's.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   if (!solidus::petsc::start({})) return 3;
-  // A program that links the reader of meshes needs none beside it.
+  // A program that links the reader of meshes needs none next to it.
   solidus::mesh::read_in_this_process(&solidus::mesh::read_mesh_here);
   int code = 0;
   try {

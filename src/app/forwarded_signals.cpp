@@ -47,7 +47,7 @@ extern "C" void forward_signal(int signal) {
 }  // namespace
 
 ForwardedSignals::ForwardedSignals() {
-  // The counts begin anew with each object, or a signal of an earlier run would be sent to a later one.
+  // The counts begin again with each object, or a signal of an earlier run would be sent to a later one.
   n_receivers = 0;
   last_signal = n_signals = 0;
   struct sigaction action {};

@@ -43,7 +43,7 @@ bool started_by_launcher() {
 }
 
 bool join_launcher() {
-  // Without a launcher there is nobody to join, and the process is one of mpirun or alone.
+  // Without a launcher there is nothing to join, and the process is one of mpirun or alone.
   const char* name = std::getenv(k_launcher_variable);
   if (name == nullptr) return true;
   started = true;

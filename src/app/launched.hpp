@@ -1,4 +1,4 @@
-/// The side of a process that `solidus run` has started beside others (app/launcher.hpp).
+/// The side of a process that `solidus run` has started along with others (app/launcher.hpp).
 #pragma once
 
 #include <memory>

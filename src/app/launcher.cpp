@@ -164,11 +164,11 @@ int Mpirun::wait() {
 }
 
 std::string Mpirun::said() const {
-  constexpr std::size_t k_enough = 40;  // characters; what follows the first lines is advice
+  constexpr std::size_t k_length = 40;  // characters; what follows the first lines is advice
   std::string line;
   std::istringstream lines(text_);
   // Lines that only frame the text, and those that are empty, are left out of what the user is told.
-  for (std::string part; std::getline(lines, part) && line.size() < k_enough;) {
+  for (std::string part; std::getline(lines, part) && line.size() < k_length;) {
     const std::size_t begin = part.find_first_not_of(' ');
     if (begin == std::string::npos || part.starts_with("----")) continue;
     line += (line.empty() ? "" : " ") + part.substr(begin);
@@ -260,7 +260,7 @@ ExitCode code_of(int status, const ForwardedSignals& signals, const Mpirun& mpir
 
 std::string find_mpirun() {
   std::error_code error;
-  // The one beside the program is taken for that of the MPI with which it was built, and goes before any
+  // The one next to the program is taken for that of the MPI with which it was built, and goes before any
   // other on the path.
   const fs::path beside = program_path().parent_path() / "mpirun";
   if (fs::exists(beside, error)) return beside.string();
@@ -289,7 +289,7 @@ LaunchOutcome run_on_processes(int n, const std::string& mpirun, std::shared_ptr
   const auto in_vain = [&](std::string why) -> LaunchOutcome {
     return {{}, std::move(why), std::make_shared<setup::MadeMesh>(take_over(file.number()))};
   };
-  // Signals are taken up while there is nobody to send them to, and sent on as soon as there is.
+  // Signals are taken up while there is no process to send them to, and sent on as soon as one is there.
   ForwardedSignals signals;
   Mpirun launcher;
   // The processes share the machine as its scheduler sees fit: binding would put those of two runs onto the

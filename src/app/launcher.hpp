@@ -15,7 +15,7 @@
 
 namespace solidus::app {
 
-/// The mpirun beside the program, which an archive brings, else that of the PATH; empty where there is none.
+/// The mpirun next to the program, which an archive brings, else that of the PATH; empty where there is none.
 std::string find_mpirun();
 
 struct LaunchOutcome {

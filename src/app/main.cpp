@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   std::optional<profile::Part> start(std::in_place, "start of the program");
   try {
     if (!petsc::start(for_petsc)) {
-      std::fputs("solidus: PETSc cannot start; its message stands above, its options behind --\n", stderr);
+      std::fputs("solidus: PETSc cannot start; its message is above, its options behind --\n", stderr);
       return separator == end ? k_our_bug : k_bad_input;
     }
   } catch (const InputError& error) {

@@ -1,4 +1,4 @@
-/// Writes what the flow needs into a folder beside it, and hands over to Python.
+/// Writes what the flow needs into a folder next to it, and hands over to Python.
 #include "app/mould_filling.hpp"
 
 #include <string>

@@ -51,7 +51,7 @@ Nanoseconds now() {
 
 /// A look that found nothing.
 void look_in_vain() {
-  // Each thread has waits of its own. Nobody tells that a wait ends, so that a pause between two looks is
+  // Each thread has waits of its own. Nothing tells that a wait ends, so that a pause between two looks is
   // taken for the end.
   static thread_local Nanoseconds begun = 0, last = 0;
   const Nanoseconds time = now();

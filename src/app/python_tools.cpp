@@ -111,7 +111,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   if (processes::count() > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
   const std::string python = python_program();
   std::vector<std::string> command = {python, "-m"};
-  // The verbs of solidus_plots tell in one sentence what a Python lacks; a module of another package stands
+  // The verbs of solidus_plots tell in one sentence what a Python lacks; a module of another package is used
   // for itself.
   if (module.find('.') == std::string::npos) command.emplace_back("solidus_plots.verb");
   command.push_back(module);

@@ -132,7 +132,7 @@ const Section<CaseSpec>& case_keys() {
         .initially(Value::list())
         .doc(
             "The case file, or files, that this one starts from: each is laid over those before it, what "
-            "stands here over them all.");
+            "is written here over them all.");
     s.section("analysis", &CaseSpec::analysis, analysis_keys());
     s.section("mesh", &CaseSpec::mesh, mesh_keys());
     s.section("time", &CaseSpec::time, time_keys());

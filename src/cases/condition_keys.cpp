@@ -91,7 +91,7 @@ void volume_heat_keys(Section<ThermalConditionSpec>& s) {
 Section<ThermalConditionSpec> thermal_condition_keys() {
   using C = ThermalConditionSpec;
   Section<C> s("thermal_condition",
-               "Heat at the boundary or in the volume. Where nothing is said, a surface is insulated.");
+               "Heat at the boundary or in the volume. Without a condition a surface is insulated.");
   s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
   s.key("group", &C::group)
       .doc("Surface group of the mesh; for kind = \"source\" and \"exothermic\" a body.");
@@ -180,7 +180,7 @@ void load_keys(Section<MechanicalConditionSpec>& s) {
 /// Keys of [[mechanical_condition]]. Components of the displacement that are left out stay free.
 Section<MechanicalConditionSpec> mechanical_condition_keys() {
   using C = MechanicalConditionSpec;
-  Section<C> s("mechanical_condition", "Supports and loads. Where nothing is said, a surface is free.");
+  Section<C> s("mechanical_condition", "Supports and loads. Without a condition a surface is free.");
   s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
   s.key("group", &C::group)
       .doc(

@@ -160,7 +160,7 @@ void integration_keys(Section<ContactSpec>& s) {
        "integration", &C::integration,
        {{"automatic", IntegrationRule::automatic, "segments with small sliding, Gauss points with large"},
         {"segments", IntegrationRule::segments,
-         "slave faces cut where master faces end: exact on non-matching meshes; with large sliding cut anew "
+         "slave faces cut where master faces end: exact on non-matching meshes; with large sliding cut again "
          "in every configuration, with means over halves of lines and quarters of faces (a rigid surface has "
          "nothing to cut at: Gauss points)"},
         {"mortar", IntegrationRule::mortar,

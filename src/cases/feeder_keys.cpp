@@ -10,7 +10,7 @@ Section<RiserBlockSpec> riser_keys() {
   using R = RiserBlockSpec;
   Section<R> s(
       "riser",
-      "An upright cylinder of metal on the geometry, or beside it: what of it lies outside of the parts.");
+      "An upright cylinder of metal on the geometry, or next to it: what of it lies outside of the parts.");
   s.key("name", &R::name).initially("riser").doc("Its name, as a group of the mesh.");
   s.quantity("foot", &R::foot, "m").doc("Centre of its foot, three coordinates; it may lie inside a part.");
   s.quantity("diameter", &R::diameter, "m").positive().doc("Its diameter.");
@@ -25,7 +25,7 @@ Section<RiserBlockSpec> riser_keys() {
   s.quantity("neck_to", &R::neck_to, "m")
       .initially(Value::list())
       .doc(
-          "Of a riser beside the part: a point in the part to which the neck leads from the axis of the "
+          "Of a riser next to the part: a point in the part to which the neck leads from the axis of the "
           "riser, level "
           "as far as the riser has that height.");
   s.quantity("sleeve", &R::sleeve, "m")
@@ -73,7 +73,7 @@ void check_riser(const RiserBlockSpec& r) {
     throw InputError(r.where, "'neck_diameter' is there without 'neck_height'", "the height of the neck");
   if (!r.neck_to.empty() && r.sleeve > 0)
     throw InputError(r.where, "a riser with 'neck_to' has a 'sleeve', which would cut its neck",
-                     "a riser beside the part without a sleeve");
+                     "a riser next to the part without a sleeve");
 }
 
 void check_chill(const ChillBlockSpec& c) {

@@ -10,7 +10,7 @@
 
 namespace solidus::cases {
 
-/// A cylindrical riser on or beside a casting.
+/// A cylindrical riser on or next to a casting.
 struct RiserBlockSpec {
   std::string name;
   std::vector<double> foot;             ///< centre of its foot

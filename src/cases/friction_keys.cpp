@@ -67,7 +67,7 @@ Section<FrictionSpec> friction_keys() {
   s.key("thermal_return_mapping", &F::thermal_return_mapping)
       .initially(false)
       .doc(
-          "The thermal phase of a split finds slip and temperature of the interface anew, with the "
+          "The thermal phase of a split finds slip and temperature of the interface again, with the "
           "coefficient "
           "at its own temperature (5.40-5.51), in place of keeping the slip of the mechanical phase, with "
           "which the first law closes. Schemes whose fields agree at the end of a step solve these equations "

@@ -35,7 +35,7 @@ struct InterfaceCard {
   ContactSpreads spread;  ///< how far the law may be off
 };
 
-/// Beside the folders of materials: `interfaces` in place of `materials`.
+/// Next to the folders of materials: `interfaces` in place of `materials`.
 std::vector<std::filesystem::path> interface_folders();
 
 /// All cards, sorted by name; of equal names that of the first folder. Throws InputError for a wrong card.

@@ -1,4 +1,4 @@
-/// Cases beside a case, that differ from it in steps or mesh alone: what its answers are compared with
+/// Cases close to a case, that differ from it in steps or mesh alone: what its answers are compared with
 /// (results/answers/answer_comparison.hpp).
 #pragma once
 

@@ -269,7 +269,7 @@ void check_stage_of_checkpoint(const CaseSpec& spec, const coupling::StageStart&
   int number = 0;
   for (const StageRun& run : runs) {
     ++number;
-    // At the end of a stage a checkpoint stands in this stage, or where the next one got stuck in that.
+    // At the end of a stage a checkpoint is in this stage, or where the next one got stuck in that.
     const bool in_it = run.start <= time && time <= run.end;
     if (in_it && stage.number == number && stage.name == run.stage->name && stage.time == run.start) return;
   }
@@ -282,7 +282,7 @@ void check_stage_of_checkpoint(const CaseSpec& spec, const coupling::StageStart&
                            : text(static_cast<int>(here - runs.begin()) + 1, here->stage->name, here->start);
   throw InputError(
       spec.stages.empty() ? spec.time.where : spec.stages.front().where,
-      fmt::format("the checkpoint at t = {:g} s stands in {}; the case has {} there", time, found, needed),
+      fmt::format("the checkpoint at t = {:g} s is in {}; the case has {} there", time, found, needed),
       "the same stages up to there, or a run without --restart");
 }
 

@@ -49,7 +49,7 @@ void resolve_stages(CaseSpec& spec);
 /// Checks that everything that names stages names existing ones. Throws InputError.
 void check_stage_names(const CaseSpec& spec);
 
-/// Throws InputError unless the stage that a checkpoint of this time stands in is the same in the case.
+/// Throws InputError unless the stage that a checkpoint of this time is in is the same in the case.
 void check_stage_of_checkpoint(const CaseSpec& spec, const coupling::StageStart& stage, double time);
 
 }  // namespace solidus::cases

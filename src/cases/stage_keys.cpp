@@ -32,7 +32,7 @@ Section<CycleSpec> cycle_keys() {
   s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
   s.key("stages", &C::stages)
       .or_one()
-      .doc("Its stages, which stand one behind the other in the file, in their order.");
+      .doc("Its stages, which follow one another in the file, in their order.");
   s.key("repeat", &C::repeat)
       .range(1, 1e6)
       .doc("How often they are run through, all times together; with `periodic` at most.");

@@ -53,7 +53,7 @@ void step_size_keys(Section<TimeSpec>& s) {
       .positive()
       .doc(
           "The run stops when a step of this size does not go through. Without it errors make no step "
-          "shorter than step / 1024, and the run stops when step / 2^20 does not go through; beside a "
+          "shorter than step / 1024, and the run stops when step / 2^20 does not go through; with a "
           "[[deposition]] it is step / 16.");
   s.quantity("max_step", &TimeSpec::max_step, "s")
       .positive()

@@ -1,4 +1,4 @@
-/// All families are asked in turn; what they find is reported together.
+/// All families are asked one after the other; what they find is reported together.
 #include "check/findings.hpp"
 
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_metal_cells = 16, k_mould_cells = 24;
 constexpr double k_mould_growth = 1.2;  // of its cells outward
-/// A bar: the thick place of a casting of several thicknesses, beside whose walls no mould cools it; a ball.
+/// A bar: the thick place of a casting of several thicknesses, next to whose walls no mould cools it; a ball.
 constexpr double k_bar = 2, k_ball = 3;
 
 /// A cell of the line: joined to `parent` alone, which comes later in the list. The last is the metal's skin.

@@ -10,9 +10,9 @@
 ///
 ///   ∂h/∂t = r^(1−n) ∂/∂r ( r^(n−1) k(Θ) ∂Θ/∂r ),   n = R A/V between 1 (plate) and 2
 ///
-/// (a bar; where R A/V is larger walls meet, beside which no mould cools the place, unless it is round
-/// itself: then up to 3, a ball), with the enthalpy h(Θ) of the material, beside it every mould that the skin
-/// faces as shells of its volume, by how much of it there is behind each third of the skin, with the
+/// (a bar; where R A/V is larger walls meet, next to which no mould cools the place, unless it is round
+/// itself: then up to 3, a ball), with the enthalpy h(Θ) of the material, next to it every mould that the
+/// skin faces as shells of its volume, by how much of it there is behind each third of the skin, with the
 /// conductance of the contact (and the gap that the metal's own shrinkage opens where contact may open),
 /// films, radiation and fluxes as they are. So C holds superheat, latent heat, the mould's √(k ρ C) and its
 /// finite thickness, the resistance of the interface and that of the metal, whichever governs.

@@ -159,7 +159,7 @@ void share_mould(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t mould, c
   std::vector<double> volumes(pieces.size(), 0.0);
   std::size_t number = 0, face = 0;  // that of the last point, which is near
   each_element(mesh, kind, mould, [&](std::span<const Index> vertices, double volume) {
-    // Every so many elements stand for all of them.
+    // A sample of the elements stands for all of them.
     if (number++ % every != 0) return;
     // Each sample carries an equal part of its element's volume.
     const double part = volume * static_cast<double>(every) / static_cast<double>(vertices.size() + 1);

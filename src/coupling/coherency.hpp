@@ -3,7 +3,7 @@
 ///
 /// An element is as coherent as its mean, whose viscosity, pores and flow of melt follow (melt.hpp,
 /// pores.hpp). A node is as coherent as the least of its elements: what it holds on to must carry before it
-/// can leave its wall, rub, or count as casting. A node that is solid beside an element that is melt would
+/// can leave its wall, rub, or count as casting. A node that is solid next to an element that is melt would
 /// be pulled off its wall by what the melt weighs, by a length that follows the size of the step
 /// (docs/theory/step_and_mesh.md).
 ///

@@ -23,8 +23,8 @@ namespace {
 // iterated set out from the multipliers of the one before, and share this count.
 constexpr int k_augmentations_by_means = 60;
 constexpr double k_tolerable = 10;
-// After so many augmentations a step stands as it is, with a warning that says how far it is off, unless the
-// default penalty alone would leave less.
+// After so many augmentations a step is accepted as it is, with a warning that says how far it is off, unless
+// the default penalty alone would leave less.
 constexpr int k_most_augmentations = 200;
 // Augmentations by default (ContactSpec::pressure_tolerance) end here: what is left is less than the
 // penalty alone would leave.

@@ -29,7 +29,7 @@ void rest_contacts(const Phases& phases, const State& old, double time, double d
 /// bodies are new. Collective.
 bool interfaces_begin(const Phases& phases, const State& state);
 /// Gives interfaces whose temperature is not known yet in a state, before the first step or where bodies are
-/// new, the one at rest between the bodies; pairs stand at the state then. Local.
+/// new, the one at rest between the bodies; pairs are then at that state. Local.
 void find_interface_temperatures(const Phases& phases, const State& state, double time);
 /// Returns the states of the pairs at their last update.
 std::vector<contact::ContactState> contact_states(const Phases& phases);

@@ -311,7 +311,7 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
     set_contact_temperatures();
     if (!equilibrate(old, pass, x)) {
       if (++lost_ > k_lost) mechanics_.reject("iterates of both fields have no equilibrium", x);
-      if (!whole) return k_nowhere;  // else the step stands as it is
+      if (!whole) return k_nowhere;  // else the step is accepted as it is
     }
   }
   return evaluate(old, pass, x);

@@ -49,7 +49,7 @@ double ErrorEstimate::size_of_displacement(std::span<const double> error,
                                            std::span<const char> counts) const {
   if (displacement_ == Displacement::motion) return norm_(error, counts);
   // The largest distortion of a casting is that of one node, which may move by as much as all others together
-  // while the last melt freezes beside it.
+  // while the last melt freezes next to it.
   return counts.empty() ? norm_.of_distortion(error, counts) : norm_.farthest_distortion(error, counts);
 }
 

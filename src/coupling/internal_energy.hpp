@@ -23,7 +23,7 @@ namespace solidus::coupling {
 bool has_internal_energy(const Phases& phases, bool bodies_come = false);
 
 /// U of a committed state [J] (axisymmetric: of the whole revolution; plane strain: per metre), from a zero
-/// that is the same in all states of a run with the same bodies. The contact pairs must stand at that state.
+/// that is the same in all states of a run with the same bodies. The contact pairs must be at that state.
 /// Lets go of the deformation of the step before, so not between the passes of a step. Collective.
 double internal_energy(const Phases& phases, const State& state);
 

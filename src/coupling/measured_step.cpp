@@ -101,7 +101,7 @@ MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double
   // The whole step first, whose contact must be forgotten; then both halves, which are kept.
   State whole = old;
   scheme_.advance(old, whole, time, dt);
-  scheme_.synchronise(old);  // contact stands where the whole step left it
+  scheme_.synchronise(old);  // contact is where the whole step left it
   State middle = old;
   middle.time = time - dt / 2;
   Taken taken{scheme_.advance(old, middle, middle.time, dt / 2), {}};

@@ -66,7 +66,7 @@ struct EnergyAudit {
   EnergyAudit& operator+=(const EnergyAudit& next);
   /// Adds the energies of the first of two stages whose second one begins with the share `carried` of the
   /// change in the first (SDIRK2): of what flows and of the heat of the interfaces. Changes of stored
-  /// energies are those of the whole step as they stand.
+  /// energies are those of the whole step as they are.
   void add_first_stage(const EnergyAudit& first, double carried);
 };
 

@@ -160,7 +160,7 @@ bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial
                             const mechanics::MechanicalState& started, const mechanics::MechanicalPass& pass,
                             StepEffort& effort) {
   // Heat and return mapping are solved in alternation, because the flow at the new temperatures changes the
-  // heat. Without flow the first solution stands.
+  // heat. Without flow the first solution is kept.
   bool converged = thermal_pass(phases, old, trial, deformation, heat, effort);
   double change = 0;
   for (int iteration = 1; iteration <= k_most_flow_iterations; ++iteration) {

@@ -72,8 +72,8 @@ class SequentialSplit : public CouplingScheme {
                           bool again, mechanics::StructuralLead& lead);
   /// The heat that passed through the gaps `used` at the temperatures found, [contact].
   std::vector<contact::GapHeat> gap_heat(const Gaps& used, const Gaps& right, const State& warm) const;
-  /// Whether that is to be mended: more than the tolerance allows, and not little beside all heat of the
-  /// step.
+  /// Whether that is to be mended: more than the tolerance allows, and not little compared with all heat of
+  /// the step.
   /// @param all  the sum over the interfaces
   bool misplaces_much(const contact::GapHeat& all, double dt, const StepEffort& conducted) const;
   /// Newton's start of a mechanical phase.

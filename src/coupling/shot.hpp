@@ -46,7 +46,7 @@ struct ShotIterate {
   std::vector<double> displacement;  ///< [local node][component] [m]; empty without mechanics
 };
 
-/// Where a run stands in its shots: what a restart needs of them.
+/// How far a run has come in its shots: what a restart needs of them.
 struct ShotHistory {
   static constexpr double k_unknown = 1e300;
   int shots = 0;                           ///< that are over

@@ -53,8 +53,8 @@ struct TimeOptions {
 
 enum class Outcome {
   finished,
-  stuck,       ///< the smallest step was rejected; the last committed state stands
-  interrupted  ///< asked to stop; the last committed state stands
+  stuck,       ///< the smallest step was rejected; the last committed state is kept
+  interrupted  ///< asked to stop; the last committed state is kept
 };
 
 class Simulation {
@@ -118,7 +118,7 @@ class Simulation {
   std::optional<Outcome> take_step();
   /// The pending step counts: observers learn of it, a checkpoint is written where one is due. Collective.
   void commit_step();
-  /// The pending step does not count: the run stands where it stood before it. Collective.
+  /// The pending step does not count: the run is where it was before it. Collective.
   /// @param step  the size wanted in its place [s]; absent: as before
   void discard_step(std::optional<double> step = {});
   /// The size wanted for the next step [s], before it lands on a time that must be met. No step is pending.
@@ -149,7 +149,7 @@ class Simulation {
   void grow(Progress& p);
   /// Whether a run that lasts until all is solid has come to its end.
   bool solid(const Progress& p) const;
-  /// Whether a run stands at the end of a shot that left the die as it found it.
+  /// Whether a run is at the end of a shot that left the die as it found it.
   bool periodic(const Progress& p) const;
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);

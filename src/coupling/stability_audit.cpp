@@ -32,7 +32,7 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
     r.mechanical = whole;
   }
 
-  // In both inequalities residuals stand on the right (theory, 2 and 3); that of heat is weighted with
+  // In both inequalities residuals are on the right (theory, 2 and 3); that of heat is weighted with
   // 1 − Θ_a/Θ, of magnitude below one. So does the energy that sub-scales of mixed elements give back: 𝓛 is
   // without their energy.
   constexpr double k_rounding = 1e-14;  // of each entropy that is a difference

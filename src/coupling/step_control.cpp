@@ -12,7 +12,7 @@ namespace {
 constexpr double k_same_time = 1e-9;
 // A step may be longer by this share to land. Sums of steps carry rounding, which grows with the square of
 // their number: 1e-8 of a step after 30 000 of them. A step as short as what is left would be no step that a
-// method in time stands.
+// method in time can resolve.
 constexpr double k_stretch = 1e-3;
 // A jump of temperature is called one after a cut to this share of the step that was refused first: an error
 // that nodes commit as they pass a kink need not fall with every cut.

@@ -88,7 +88,7 @@ CriterionRecord Feeding::initial(const CriterionInput& start) const {
   return restart(record, start);
 }
 
-// Metal that stays keeps what it has; what is poured beside it fills the rest of the room.
+// Metal that stays keeps what it has; what is poured next to it fills the rest of the room.
 CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionInput& start) const {
   CriterionRecord record = before;
   const FeedingRows rows = rows_of(record);
@@ -103,7 +103,7 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
       rows(i, k_thermal) = volume.thermal;
       rows(i, k_phase) = volume.phase;
     }
-    // Metal that is poured beside it takes on the volume of the metal that is there, as if it froze at once:
+    // Metal that is poured next to it takes on the volume of the metal that is there, as if it froze at once:
     // the balance has one volume a node.
     const double present = 1 + rows(i, k_thermal) + rows(i, k_phase);
     for (const FeedingNumber number : {k_metal, k_drained, k_pipe, k_sink, k_cavity, k_pores, k_gas, k_wall})

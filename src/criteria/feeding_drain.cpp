@@ -71,7 +71,7 @@ double Feeding::reached_at_first(const Step& step, std::size_t node) {
                                                                          : step.by_skin[node];
 }
 
-// Air follows the melt that sinks: nodes beside those that are drained at a level may be drained too.
+// Air follows the melt that sinks: nodes next to those that are drained at a level may be drained too.
 bool Feeding::spread(const Step& step, const std::vector<PoolLevel>& level,
                      std::vector<double>& reached) const {
   // Nodes that the level of their pool has fallen below, in pools that give metal.

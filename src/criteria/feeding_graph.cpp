@@ -171,7 +171,7 @@ void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options
 }
 
 // A face of the outside of all followed bodies. It is open where groups say so, or where it faces up and
-// nothing else stands there; it is skin where it is open or where heat leaves.
+// nothing else is there; it is skin where it is open or where heat leaves.
 void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
   // Marks of the user's groups first, since they go before what geometry says.
   constexpr double k_upward = 0.5;  // of the normal along `up`

@@ -1,7 +1,7 @@
-/// The nodes of a casting as rooms that hold metal: what lies beside what, how high, and what is open.
+/// The nodes of a casting as rooms that hold metal: what lies next to what, how high, and what is open.
 ///
-/// A node stands for the part of the casting around it, from half way to the lowest node beside it up to half
-/// way to the highest. Melt flows between nodes that an element has both, through
+/// A node stands for the part of the casting around it, from half way to the lowest node next to it up to
+/// half way to the highest. Melt flows between nodes that an element has both, through
 ///
 ///   g_ij = max(0, −∫ ∇N_i · ∇N_j dV)   [m], over dt and mobility the flow per pressure
 ///

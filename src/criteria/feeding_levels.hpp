@@ -1,7 +1,7 @@
 /// How far melt sinks in each pool that gives some away.
 ///
 /// A node i at heights from l_i to h_i is drained to the share x_i(L) = (h_i − L)/(h_i − l_i), between zero
-/// and one, when melt stands at the level L. Of the metal that can move it gives the room m_i (x_i(L) − x_i),
+/// and one, when melt reaches the level L. Of the metal that can move it gives the room m_i (x_i(L) − x_i),
 /// with x_i its share so far; one level serves the nodes of a pool that air or vacuum can reach:
 ///
 ///   Σ_i m_i V_i max(0, x_i(L) − x_i)/v_i = M
@@ -20,7 +20,7 @@ namespace solidus::criteria {
 struct DrainedNode {
   std::size_t node = 0, pool = 0;
   double low = 0, high = 0;  ///< l, h [m]
-  double drained = 0;        ///< x; below zero where metal stands above its top
+  double drained = 0;        ///< x; below zero where metal rises above its top
   double room = 0;           ///< m V [m³]
   double metal = 0;          ///< m V/v [m³]
   /// x(L) − x, not below zero.

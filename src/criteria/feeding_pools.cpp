@@ -58,8 +58,8 @@ void Feeding::leave_out_absent(Step& step) const {
     if (absent[i] != 0) step.soft[i] = step.inside[i] = 0;
 }
 
-// Air reaches a pool through an open skin, or through a pipe that has emptied a node beside it or lies in it.
-// Crumbs of melt without a whole element are pools where air or a skin reaches them and mush elsewhere.
+// Air reaches a pool through an open skin, or through a pipe that has emptied a node next to it or lies in
+// it. Crumbs of melt without a whole element are pools where air or a skin reaches them and mush elsewhere.
 void Feeding::find_pools(Step& step) const {
   // Pools are connected parts of nodes whose metal can move.
   const ConnectedParts parts = connectivity_.parts(step.inside);

@@ -94,7 +94,7 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
       held_(held_mush(mesh, storage)),
       patches_(mesh, kind, freezing_bodies(mesh, storage, options.bodies)),
       ghosts_(mesh) {
-  // The levels of temperature of each material: between solidus and liquidus stands the one at which the
+  // The levels of temperature of each material: between solidus and liquidus lies the one at which the
   // gradient is evaluated; a material that evaluates at its solidus does so at the end of freezing.
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));

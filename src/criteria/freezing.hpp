@@ -70,7 +70,7 @@ class Freezing : public Criterion {
             std::span<const std::span<double>> values) const override;
   /// The last node to freeze, and least and greatest values of the criteria.
   std::vector<CriterionResult> findings(const CriterionRecord& record) const override;
-  /// Without it nothing is said of plate_thickness.
+  /// Without it nothing is reported of plate_thickness.
   void know_plates(std::span<const PlateTimes> plates) override {
     plates_.assign(plates.begin(), plates.end());
   }

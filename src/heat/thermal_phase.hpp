@@ -14,7 +14,7 @@
 /// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by linear::RungeKuttaStage.
 ///
 /// H* is an extrapolation. Where with the closed rule a node's Θ(H*) leaves the range of the temperatures at
-/// t_n and around, or where it makes heat flow back beside nodes that have frozen or melted in the step
+/// t_n and around, or where it makes heat flow back next to nodes that have frozen or melted in the step
 /// (extrapolation_guard.hpp), the second stage is backward Euler over (1 − γ) Δt from H¹ instead: the step is
 /// then of first order, balanced as exactly, and no temperature leaves that range (docs/decisions/0016).
 #pragma once
@@ -76,7 +76,7 @@ struct HeatOptions {
   /// Limits conduction where the mesh would let temperatures leave the range of those around them
   /// (conduction_limiter.hpp); closed rule only.
   bool bounds = true;
-  /// Corrects conduction of linear simplices beside re-entrant edges (edge_conduction.hpp).
+  /// Corrects conduction of linear simplices next to re-entrant edges (edge_conduction.hpp).
   bool edges = true;
   bool symmetric = true;  ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
@@ -184,7 +184,7 @@ class ThermalPhase {
   /// what time_error() of the next step asks for. Collective.
   std::vector<double> flow_at_end(const StageFlows& flows) const;
   /// The error in time of the step that ended in `now`, whose flows must be known: the heat of
-  /// heat::time_error(), spread for as long as its last stage is, through contributions as they stand.
+  /// heat::time_error(), spread for as long as its last stage is, through contributions as they are.
   /// [local node] [K]. Collective.
   /// @param flow_before  flow_at_end() of the step before
   std::vector<double> time_error(const ThermalState& now, const StageFlows& flows,

@@ -28,7 +28,7 @@ void check_text(const std::string& text, const SourceLocation& where) {
 Value convert(const toml::node& node, const std::string& file, int depth = 0) {
   const SourceLocation where = location(node.source(), file);
   // Nesting is bounded, as every level is a call of this function.
-  if (depth > 2 * k_most_key_parts) throw InputError(where, "tables stand too deep in tables");
+  if (depth > 2 * k_most_key_parts) throw InputError(where, "tables are nested too deep in tables");
   Value result;
   // Each kind of node has its own conversion; tables and lists go down into their items.
   if (const auto* table = node.as_table()) {

@@ -87,7 +87,7 @@ std::vector<std::unique_ptr<const Formula>> Formula::comparisons() const {
       found.push_back(
           std::make_unique<const Formula>(text_.substr(begin, end - begin), variables_, constants_));
     } catch (const std::invalid_argument&) {
-      continue;  // not one that stands by itself
+      continue;  // not one that is complete by itself
     }
   }
   return found;

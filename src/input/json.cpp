@@ -81,7 +81,7 @@ class Reader {
       if (peek() != '"') fail("expected the name of a member in quotes");
       const SourceLocation where = here();
       std::string key = text();
-      if (value.find(key) != nullptr) throw InputError(where, "the member '" + key + "' stands twice");
+      if (value.find(key) != nullptr) throw InputError(where, "the member '" + key + "' is there twice");
       if (peek() != ':') fail("expected ':' behind the name of a member");
       ++at_;
       // The value of a member may be anything, one level deeper.
@@ -151,7 +151,7 @@ class Reader {
     const char* const begin = text_.data() + at_ + 1;
     const bool room = text_[at_] == 'u' && at_ + 4 < text_.size();
     if (!room || std::from_chars(begin, begin + 4, code, 16).ptr != begin + 4)
-      fail("a backslash stands before no character that it can stand before");
+      fail("a backslash is followed by a character that it cannot escape");
     at_ += 4;
     if (code < 0x80) {
       result += static_cast<char>(code);

@@ -281,7 +281,7 @@ bool is_one_of_many(const Key& key, const SectionInfo& info) {
 void manual_of_section(const SectionInfo& info, const std::string& title, const std::string& path,
                        std::string& out) {
   // A table of the plain keys of a section, then its sections below. Choices follow with their meaning, and a
-  // section that stands for many (one of several names) is written once.
+  // section that holds for many (one of several names) is written once.
   out += fmt::format("## {}\n\n{}\n\n", title, info.doc);
   std::string rows;
   for (const Key& key : info.keys) {
@@ -301,7 +301,7 @@ void manual_of_section(const SectionInfo& info, const std::string& title, const 
   }
   if (!rows.empty()) out += "| key | type | default | meaning |\n|---|---|---|---|\n" + rows + "\n";
   std::vector<const SectionInfo*> shown;
-  // Sections of the section come behind its own table; those that stand for many are written once.
+  // Sections of the section come behind its own table; those that hold for many are written once.
   for (const Key& key : info.keys) {
     if (!is_section(key)) continue;
     if (is_one_of_many(key, info)) {

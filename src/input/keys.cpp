@@ -135,7 +135,7 @@ Table points_of(const Value& table, const Key& key, Argument of) {
     throw InputError(points.where, fmt::format("'points' of '{}' is {}", key.name, points.describe()),
                      "a list of pairs: [[argument, value], ...]");
   const std::string unit = text_of(table, "unit", key), argument_unit = text_of(table, "argument_unit", key);
-  Key argument = key;  // for messages: the number beside 'key' that is its argument
+  Key argument = key;  // for messages: the number next to 'key' that is its argument
   argument.name = fmt::format("{} of {}", name(of), key.name);
   argument.temperature = units::Temperature::absolute;
   std::vector<double> x, y;

@@ -117,7 +117,7 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
   // With one column of values no name is needed; with more it is.
   if (column.empty() && others.size() != 1)
     throw InputError(where, fmt::format("the table has {} columns of values", others.size()),
-                     others.empty() ? "one beside the coordinates" : "column = \"...\", " + one_of(others));
+                     others.empty() ? "one besides the coordinates" : "column = \"...\", " + one_of(others));
   const std::string value = column.empty() ? others.front() : column;
   // The value is the last column of a point, behind its coordinates.
   const auto found =

@@ -127,7 +127,7 @@ std::string advice_on_brackets(std::string_view unit, std::string_view expected_
     const std::string meant =
         fmt::format("{}/({} {})", unit.substr(0, slash), rest, kelvin == "K" ? kelvin : "degC");
     if (!rest.empty() && compatible(meant, expected_unit))
-      return fmt::format("; what stands behind the slash needs brackets: \"{}\"", meant);
+      return fmt::format("; what follows the slash needs brackets: \"{}\"", meant);
   }
   return {};
 }

@@ -1,5 +1,5 @@
 /// The solver that a linear system gets where a case says `automatic`, by its kind, dimension and size. All
-/// sizes at which the choice changes stand here.
+/// sizes at which the choice changes are here.
 #pragma once
 
 #include <optional>

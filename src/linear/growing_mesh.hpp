@@ -1,5 +1,5 @@
 /// A mesh of which elements come one after the other: those that are there, with the faces that they leave
-/// bare, beside the whole of it.
+/// bare, in addition to the whole of it.
 ///
 /// The present mesh has all nodes, numbered as in the whole one, and of each block the elements that are
 /// born, in their order. Of a named surface it has the faces that bound exactly one of its elements: faces

@@ -27,7 +27,7 @@ enum class Part {
 
 /// Adds the borders' part of a product. A row's own results are summed on the spot and stored once; those of
 /// the mirror images go to memory one by one.
-/// @param half  whether the borders above the diagonal also stand for those below
+/// @param half  whether the borders above the diagonal are also those below
 template <Part part, class AnySizes>
 void add_borders(const BlockMatrix& pattern, const double* border, bool half, AnySizes sizes, const double* u,
                  const double* p, double* y_u, double* y_p) {

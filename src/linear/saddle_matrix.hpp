@@ -5,7 +5,7 @@
 ///
 /// A node has `components` displacements and `fields` pressures. The pressure's part of a pair of nodes is
 /// stored as one border per slot of A, so that both fields share a pattern and a product needs no copy in
-/// another format. Where A is kept by half, the border of a slot also stands for its mirror image.
+/// another format. Where A is kept by half, the border of a slot is also its mirror image.
 #pragma once
 
 #include <span>

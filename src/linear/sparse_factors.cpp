@@ -60,7 +60,7 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
     m.columns.assign(columns.begin(), columns.end());
     m.factors.analyzePattern(m.matrix);
   }
-  // Values are written anew; rows and columns that are held keep nothing but a one on the diagonal.
+  // Values are written again; rows and columns that are held keep nothing but a one on the diagonal.
   std::fill_n(m.matrix.valuePtr(), m.matrix.nonZeros(), 0.0);
   const auto n = static_cast<Index>(start.size()) - 1;
   assert(held.size() == static_cast<std::size_t>(n));

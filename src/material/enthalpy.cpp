@@ -46,7 +46,7 @@ EnthalpyCurve::EnthalpyCurve(double density, const Table& specific_heat,
   if (!(c.min_value() > 0)) throw std::invalid_argument("the specific heat is not positive");
 
   // Between two breaks the specific heat and all fractions are straight lines, so the enthalpy is a parabola:
-  // a piece. One more break on either side gives the first and the last jump a piece to stand on.
+  // a piece. One more break on either side gives the first and the last jump a piece to lie on.
   std::vector<double> breaks;  // where C or an f bends or jumps
   if (!c.constant()) breaks.assign(c.x().begin(), c.x().end());
   for (const PhaseChange& change : changes) {

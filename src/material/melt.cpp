@@ -92,7 +92,7 @@ std::string measured_against(const MeltModulus& melt) {
     case Bound::arithmetic:
       break;
   }
-  return fmt::format("{:g} of the bulk modulus of {:.3g} Pa, the least that the arithmetic stands",
+  return fmt::format("{:g} of the bulk modulus of {:.3g} Pa, the least that the arithmetic can resolve",
                      k_least_melt_share, melt.reference);
 }
 

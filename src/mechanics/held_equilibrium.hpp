@@ -1,9 +1,9 @@
 /// A second attempt of Newton's iteration for equilibrium, which holds what has just lost its contact.
 ///
-/// Beside a melt, or a body that contact alone holds, the springs of contact are 10⁶ to 10⁸ times as stiff as
-/// all else: a step that opens some of them leaves next to nothing that holds these points, and the next one
-/// takes them far into the other body, where the line search finds no way on. Here the tangent keeps a share
-/// s of the stiffness that a node has had in an earlier iteration of the same attempt,
+/// Next to a melt, or a body that contact alone holds, the springs of contact are 10⁶ to 10⁸ times as stiff
+/// as all else: a step that opens some of them leaves next to nothing that holds these points, and the next
+/// one takes them far into the other body, where the line search finds no way on. Here the tangent keeps a
+/// share s of the stiffness that a node has had in an earlier iteration of the same attempt,
 ///
 ///   K_ii + s (max K_ii − K_ii),
 ///

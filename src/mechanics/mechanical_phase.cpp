@@ -255,7 +255,7 @@ void MechanicalPhase::create_pressure() {
   set_body_force(0);
 }
 
-/// Mixed elements need the force per volume itself, beside the nodal forces that it makes.
+/// Mixed elements need the force per volume itself, in addition to the nodal forces that it makes.
 void MechanicalPhase::set_body_force(double time) {
   run_collectively([&] {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {

@@ -3,8 +3,8 @@
 ///
 ///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions + inertia = 0
 ///
-/// Where elements are mixed the nodal pressure is an unknown beside the displacement, and its equation a
-/// residual beside that of the forces (nodal_pressure.hpp).
+/// Where elements are mixed the nodal pressure is an unknown in addition to the displacement, and its
+/// equation a residual in addition to that of the forces (nodal_pressure.hpp).
 ///
 /// Newton's criterion measures the residual against the forces that the bodies exchange with the world
 /// (loads, supports, contact, inertia), or a millionth of the internal forces where there are none. In

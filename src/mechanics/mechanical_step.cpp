@@ -212,7 +212,7 @@ MechanicalReport MechanicalPhase::solve(const MechanicalState& old, MechanicalSt
     report.newton = linear::newton(equilibrium, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.add_solves(from_guess);
   }
-  // With contact a second attempt goes another way from the start; without it Newton's answer stands.
+  // With contact a second attempt goes another way from the start; without it Newton's answer is kept.
   if (!report.newton.converged && pass.newton_steps == 0 && !contributions_.empty()) {
     const linear::NewtonReport failed = std::move(report.newton);
     x = start(old, pass);

@@ -44,7 +44,7 @@ namespace solidus::mechanics {
 class MechanicalPhase;
 
 /// Adds to the thermal residual in watts (heat stored is positive). The tangent is that of the capacity of
-/// the body beside which it stands: lumped to the diagonal where nodes store the heat, so that the thermal
+/// the body, to which it is added: lumped to the diagonal where nodes store the heat, so that the thermal
 /// matrix stays symmetric and of non-negative type, and ∫N_a N_b where Gauss points store it (open rule). C_v
 /// is less than C_p: a lumped difference of the two, which at the corners of quadratic elements even has the
 /// other sign, is as large as the small eigenvalues of a consistent capacity.

@@ -62,7 +62,7 @@ struct MeshSource {
   /// units.
   std::map<std::string, double> constants = {};
   GeometryChoice geometry = {};  ///< groups of files that Gmsh meshes
-  /// Run a script without checks, and the options file beside a mesh: it can do whatever a program can do.
+  /// Run a script without checks, and the options file next to a mesh: it can do whatever a program can do.
   /// Else a script may only make geometry (mesh/files/gmsh_script.hpp).
   bool trust_script = false;
 };

@@ -15,7 +15,7 @@ namespace solidus::multigrid {
 class LowerPart {
  public:
   struct MirroredBlock {
-    Index column;  ///< of the block below the diagonal: the row in which its mirror image stands
+    Index column;  ///< of the block below the diagonal: the row in which its mirror image is
     Index place;   ///< within that row
   };
   LowerPart(std::span<const std::int64_t> start, std::span<const Index> column);

@@ -2,7 +2,7 @@
 /// repeatedly.
 ///
 /// A product is bound by memory: 4 bytes an entry and 4 bytes a block, where PETSc's AIJ reads 12 bytes an
-/// entry, and half of that where the matrix is symmetric (symmetric_product.hpp). Blocks of others stand
+/// entry, and half of that where the matrix is symmetric (symmetric_product.hpp). Blocks of others are
 /// column by column, so that a column times a number is one short vector.
 #pragma once
 

@@ -84,7 +84,7 @@ class Choice {
     const double at = draft_.symmetry->at, near = 0.1 * thickest_;
     if (c > at) c = 2 * at - c;
     // A place that is nearly on the plane is moved close to it, so that a probe and its image are not two
-    // points beside each other.
+    // points next to each other.
     if (at - c < near) c = at - inside * thickest_;
   }
 
@@ -107,7 +107,7 @@ class Choice {
               "of its box at {:.4g} mm",
               options_.symmetry, 1e3 * centre, 1e3 * middle),
           "an axis normal to a plane of symmetry");
-    // A cut beside the plane that faces and edges of the part lie on would leave slivers.
+    // A cut next to the plane that faces and edges of the part lie on would leave slivers.
     draft_.symmetry = {static_cast<int>(axis), round_place(centre, part_.high[axis] - part_.low[axis])};
   }
 

@@ -84,7 +84,7 @@ class Refinement {
     // Meshes, overlaps and messages of the many tries are kept from the user until the last one.
     mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
     const OverlapListener listener(estimate_.overlap);
-    // The log is quiet from here on, or each try would print the warnings of a draft that nobody gets to see.
+    // The log is quiet from here on, or each try would print the warnings of a draft that is not shown.
     const QuietLog quiet;
     kept.search().time_of_direct_ways = time_of_direct_ways_;
     try {

@@ -78,7 +78,7 @@ void write_feeder_solids(const Draft& draft, const std::filesystem::path& file) 
   Script script;
   for (const DraftRiser& riser : draft.risers) script.add(riser);
   for (const DraftChill& chill : draft.chills) script.add(chill);
-  // The path stands in quotes in the script, and a sign that ends them would let it run on as a command.
+  // The path is in quotes in the script, and a sign that ends them would let it run on as a command.
   const std::string path = std::filesystem::absolute(file).string();
   if (path.find_first_of("\"\\\n") != std::string::npos)
     throw InputError({path}, "the solids of risers cannot be written to a path with such signs",

@@ -80,13 +80,13 @@ std::optional<double> beside_plane(const Draft& draft, const DraftRiser& riser) 
   return draft.symmetry->at - riser.foot[static_cast<std::size_t>(draft.symmetry->axis)];
 }
 
-/// A note where half of the part has its first riser beside the plane: the whole part then has two such.
+/// A note where half of the part has its first riser next to the plane: the whole part then has two such.
 /// Empty where not.
 std::string twin_riser_text(const Draft& draft) {
   const double beside = draft.risers.empty() ? 0 : beside_plane(draft, draft.risers.front()).value_or(0);
   if (beside == 0) return "";
   return fmt::format(
-      "\n  note        the part is thickest {:.3g} mm beside the plane of symmetry: there is a riser on each "
+      "\n  note        the part is thickest {:.3g} mm off the plane of symmetry: there is a riser on each "
       "half, with metal for that half",
       1e3 * beside);
 }
@@ -99,8 +99,8 @@ std::string hollow_text(const Draft& draft) {
     if (riser.hollow)
       text += fmt::format(
           "\n  note        '{}' stands on metal above the thickest place, with {:.3g} mm of mould between "
-          "them: it feeds that place only until the metal beside has frozen; turn the part, or place a riser "
-          "by hand",
+          "them: it feeds that place only until the metal next to it has frozen; turn the part, or place a "
+          "riser by hand",
           riser.name, 1e3 * *riser.hollow);
   for (const std::string& note : draft.riser_notes) text += "\n  note        " + note;
   return text;

@@ -49,7 +49,7 @@ struct DraftRiser {
   double diameter = 0, height = 0;
   double neck_diameter = 0;                  ///< 0: no neck
   double neck_height = 0;                    ///< above the foot, where the sleeve begins, too
-  std::optional<mesh::Point> neck_to = {};   ///< of a riser beside the part
+  std::optional<mesh::Point> neck_to = {};   ///< of a riser next to the part
   double sleeve = 0;                         ///< thickness; 0: none
   std::optional<mesh::Point> hot_spot = {};  ///< that it was chosen for
   double modulus = 0;                        ///< of the hot spot

@@ -56,7 +56,7 @@ class Choice {
   /// Puts a riser on a place where it is clear of the others; else notes the place.
   void put(const InscribedSphere& place, double modulus, int fixed);
   DraftRiser riser_on(const InscribedSphere& place, double diameter, int fixed) const;
-  /// Places from which the risers feed, with the mirror images of those beside the plane behind them.
+  /// Places from which the risers feed, with the mirror images of those next to the plane behind them.
   std::vector<mesh::WayStart> feet() const;
 
   const PartMeasures& part_;
@@ -169,7 +169,7 @@ void Choice::put(const InscribedSphere& place, double modulus, int fixed) {
       choice_.notes.push_back(fmt::format(
           "the thick place at ({:.4g}, {:.4g}, {:.4g}) mm is cut off from the others and would have its "
           "riser "
-          "where one stands already: see whether that feeds it, else a chill or a riser at its side will",
+          "where one is already: see whether that feeds it, else a chill or a riser at its side will",
           1e3 * place.centre[0], 1e3 * place.centre[1], 1e3 * place.centre[2]));
       return;
     }
@@ -185,7 +185,7 @@ void Choice::put_on(const Group& group) {
   const InscribedSphere& there = *place_to_feed(group.places, thickest);
   if (!symmetry_) return put(there, modulus, -1);
   // With a plane of symmetry a riser stands on the plane where a place of the group there is nearly as thick,
-  // or where it would touch its image beside the plane.
+  // or where it would touch its image next to the plane.
   constexpr std::size_t k_most = 8;
   const auto axis = static_cast<std::size_t>(symmetry_->axis);
   std::vector<InscribedSphere> on_plane = mesh::inscribed_spheres(
@@ -217,7 +217,7 @@ std::vector<mesh::WayStart> Choice::feet() const {
 }
 
 void Choice::put_where_too_far() {
-  // Each turn serves the place that is furthest beyond its feeding distance, by a riser as far from it as
+  // Each pass serves the place that is furthest beyond its feeding distance, by a riser as far from it as
   // feeds it and as near to the others as that allows.
   while (choice_.risers.size() < k_most_risers) {
     const mesh::WaysInMetal ways = grid_.shortest_ways(feet());

@@ -23,12 +23,12 @@ struct RiserChoice {
 /// what is nearer to it than to others. The modulus of a place is that of the metal within twice the radius
 /// of the largest sphere there, its volume over its skin, between a third of the radius (a ball) and the
 /// radius (a plate). It stands on that of the thickest places that has the least metal above it, in the
-/// middle of the level ground there, moved so that no metal rises beside it and little of its foot hangs
+/// middle of the level ground there, moved so that no metal rises next to it and little of its foot hangs
 /// over an edge. Where metal is further from all of them than an alloy is fed (feeding_distance.hpp), there
 /// are more.
 ///
 /// The riser of half a part stands on the plane of symmetry, which halves it, where a place there is nearly
-/// as thick as the thickest, or where it would touch its mirror image beside it. Else each half has one of
+/// as thick as the thickest, or where it would touch its mirror image next to it. Else each half has one of
 /// its own, with metal for its half.
 /// @param shrinkage  of the alloy when it freezes, a share of its volume, positive
 /// @param distance   how far the alloy is fed; nothing where no rule is known

@@ -51,7 +51,7 @@ std::optional<mesh::Point> middle_of_ground(const mesh::ViewFromAbove& view, con
   return mesh::Point{x / number, y / number, place[2]};
 }
 
-/// How badly a cylinder stands, zero where all of its foot stands on a plane and no metal rises beside it.
+/// How badly a cylinder stands, zero where all of its foot stands on a plane and no metal rises next to it.
 /// @param centre  of the foot
 double misfit(const mesh::ViewFromAbove& view, const mesh::Point& centre, double diameter) {
   constexpr double k_level = 0.05;     // of the diameter: heights that do not count
@@ -61,18 +61,18 @@ double misfit(const mesh::ViewFromAbove& view, const mesh::Point& centre, double
   double hanging = 0, raised = 0;
   for (const double share : {0.4, 0.8, k_distance})
     for (int i = 0; i < k_directions; ++i) {
-      // Three rings of points tell the ground within the foot, near its edge and just beside it.
+      // Three rings of points tell the ground within the foot, near its edge and just next to it.
       const double angle = 2 * std::numbers::pi * i / k_directions, r = 0.5 * diameter * share;
       const mesh::Point below = {centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle), -1e3};
       const double step = (view.top(below) - centre[2]) / diameter;
       if (step > k_level) ++raised;
-      // Beside the foot a step down does no harm.
+      // Next to the foot a step down does no harm.
       if (share < 1 && step < -k_level) ++hanging;
     }
   return (k_raised * raised + hanging) / k_directions;
 }
 
-/// Where it stands best so near the place that it covers it: metal beside it, a wall or a boss, would become
+/// Where it stands best so near the place that it covers it: metal next to it, a wall or a boss, would become
 /// one with it. It may hang over an edge for that.
 /// @param fixed  coordinate that has to stay as it is; none: -1
 mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& place, double diameter,
@@ -86,7 +86,7 @@ mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& p
   // The middle of a boss is better than any other place that is no worse to stand on.
   if (const std::optional<mesh::Point> middle = middle_of_ground(view, place, diameter);
       middle && fixed < 0) {
-    constexpr double k_covers = 0.45;  // of the diameter: it still stands over the place
+    constexpr double k_covers = 0.45;  // of the diameter: it is still over the place
     const bool covers = std::hypot((*middle)[0] - place[0], (*middle)[1] - place[1]) < k_covers * diameter;
     if (covers && misfit(view, *middle, diameter) <= least + k_near * k_shift) return *middle;
   }
@@ -105,7 +105,7 @@ mesh::Point standing_place(const mesh::ViewFromAbove& view, const mesh::Point& p
 /// The lowest metal under a foot that is no deeper below its centre than a quarter of its diameter: a foot
 /// that stood above a recess would leave a sheet of sand in it that no pattern has.
 double lowest_under(const mesh::ViewFromAbove& view, const mesh::Point& centre, double diameter) {
-  constexpr double k_deepest = 0.25;  // of the diameter: what lies deeper is beside the place
+  constexpr double k_deepest = 0.25;  // of the diameter: what lies deeper is next to the place
   constexpr int k_directions = 24;
   double lowest = centre[2];
   for (const double share : {0.25, 0.5, 0.75, 1.0})

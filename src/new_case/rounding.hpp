@@ -29,7 +29,7 @@ inline double round_place(double value, double length) {
   return std::abs(round - value) < 1e-5 * length ? round : value;
 }
 
-/// A measured place to the micrometre: 1.03e-06 mm beside a plane of symmetry is 0.
+/// A measured place to the micrometre: 1.03e-06 mm off a plane of symmetry is 0.
 inline double to_micrometre(double value) {
   return 1e-6 * std::round(1e6 * value) + 0.0;  // no -0
 }

@@ -23,8 +23,8 @@ struct PlaceSpot {
   double radius = 0;  ///< parts of elements there are made no larger than this
 };
 
-/// How a law travels: the time in which it moves by its own length, infinite where it stands, and how much of
-/// that time a step may take.
+/// How a law travels: the time in which it moves by its own length, infinite where it is at rest, and how
+/// much of that time a step may take.
 struct Crossing {
   double time = std::numeric_limits<double>::infinity();  ///< [s]
   double share = 1;

@@ -1,4 +1,4 @@
-/// Eigenvalues and eigenvectors of small symmetric matrices by Jacobi's rotations: each sets one entry beside
+/// Eigenvalues and eigenvectors of small symmetric matrices by Jacobi's rotations: each sets one entry off
 /// the diagonal to zero, and sweeps over all of them converge quadratically (G. H. Golub and C. F. Van Loan,
 /// Matrix Computations, 4th ed. 2013, section 8.5). Small eigenvalues are as exact as large ones.
 #pragma once

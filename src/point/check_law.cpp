@@ -223,7 +223,7 @@ class Checks {
     checks.push_back({"repetition", repeats_,
                       repeats_ ? "the same bits for the same input, whatever was asked in between"
                                : fmt::format("the same input gave another answer at {:.6g} s: the law keeps "
-                                             "something beside its state variables",
+                                             "something besides its state variables",
                                              differs_at_)});
     checks.push_back(
         {"isotropy", isotropy_.value <= k_isotropy, isotropy_.text("in a rotated frame stress differs by")});

@@ -1,4 +1,4 @@
-/// Measured points beside a computed history: they are read from CSV and compared with the history.
+/// Measured points next to a computed history: they are read from CSV and compared with the history.
 #pragma once
 
 #include <filesystem>

@@ -31,13 +31,13 @@ void loaded_keys(Section<SegmentSpec>& s) {
       .doc("Total strain of the loaded component at the end, thermal strain included.");
   s.quantity("strain_rate", &SegmentSpec::strain_rate, "1/s")
       .when("kind", k_loaded)
-      .doc("Of the loaded component; beside `strain` its size gives the duration.");
+      .doc("Of the loaded component; with `strain` its size gives the duration.");
   s.quantity("stress", &SegmentSpec::stress, "Pa")
       .when("kind", k_loaded)
       .doc("Of the loaded component at the end.");
   s.quantity("stress_rate", &SegmentSpec::stress_rate, "Pa/s")
       .when("kind", k_loaded)
-      .doc("Of the loaded component; beside `stress` its size gives the duration.");
+      .doc("Of the loaded component; with `stress` its size gives the duration.");
   s.choice("hold", &SegmentSpec::hold,
            {{"nothing", Hold::nothing, "the loaded component moves"},
             {"strain", Hold::strain, "it keeps its strain: relaxation"},
@@ -96,7 +96,7 @@ Section<SegmentSpec> segment_keys() {
   s.quantity("temperature_rate", &SegmentSpec::temperature_rate, "K/s")
       .difference()
       .when("kind", k_ramps)
-      .doc("Beside `temperature` its size gives the duration.");
+      .doc("With `temperature` its size gives the duration.");
   s.quantity("duration", &SegmentSpec::duration, "s")
       .positive()
       .when("kind", k_ramps)
@@ -141,7 +141,7 @@ Section<CurveSpec> curve_keys() {
 }
 
 Section<PictureSpec> picture_keys() {
-  Section<PictureSpec> s("picture", "A picture with all curves, beside the overview that is always drawn.");
+  Section<PictureSpec> s("picture", "A picture with all curves, besides the overview that is always drawn.");
   s.key("file", &PictureSpec::file).doc("Its name, without ending.");
   s.key("title", &PictureSpec::title).initially("").doc("Above it.");
   s.key("x", &PictureSpec::x).doc("A column without its unit: strain_xx.");

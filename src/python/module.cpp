@@ -27,7 +27,7 @@ void initialize(std::optional<int> communicator, const std::vector<std::string>&
   struct sigaction python {};
   sigaction(SIGINT, nullptr, &python);
   if (!petsc::start(options))
-    throw InputError({}, "PETSc cannot start; its message stands above", "options that PETSc knows");
+    throw InputError({}, "PETSc cannot start; its message is above", "options that PETSc knows");
   if (running) return;
   sigaction(SIGINT, &python, nullptr);  // MPI may have put its own in place
   linear::interrupt_when(interrupted);

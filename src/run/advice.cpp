@@ -32,7 +32,7 @@ std::vector<std::string> solver_advice(const cases::CaseSpec& spec) {
   return advice;
 }
 
-/// Advice on Newton's iteration of a body that stands and is strong enough.
+/// Advice on Newton's iteration of a body that is supported and is strong enough.
 std::vector<std::string> iteration_advice(const coupling::Stop& stop, const cases::CaseSpec& spec) {
   std::vector<std::string> advice;
   // A linear solver that gave up is the first suspect.

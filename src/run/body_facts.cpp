@@ -166,7 +166,7 @@ void find_contacts(const setup::Assembly& a, const coupling::State& last,
     const auto& state = pair.state().points;
     points.all = std::llround(parallel::global_sum(
         static_cast<double>(std::ranges::count_if(state, [](const auto& point) { return point.counted; }))));
-    // A run without a step has no closed points yet: those of the failing try stand in.
+    // A run without a step has no closed points yet: those of the failing try are taken instead.
     const bool stood = parallel::any_process(i < last.contacts.size() && !last.contacts[i].points.empty());
     points.before = coupling::closed_points(stood ? last.contacts[i] : pair.state());
     if (iterate != nullptr && i < iterate->contacts.size()) {

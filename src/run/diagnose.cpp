@@ -130,7 +130,7 @@ coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure 
 }
 
 /// The contact through which most heat passes at a node, by conductance times step over heat capacity; the
-/// pairs stand at the last step. Collective.
+/// pairs are at the last step. Collective.
 void find_contact_heat(const setup::Assembly& a, const coupling::State& last, Index node, double dt,
                        Diagnosis& d) {
   std::vector<double> number(a.phases.contacts.size(), 0.0);

@@ -18,10 +18,10 @@ namespace solidus::run {
 
 namespace {
 
-/// Runs beside a run that are less different than this tell nothing: their differences are those of chance.
+/// Further runs that differ from the run by less than this tell nothing: such differences are chance.
 constexpr double k_least_ratio = 1.2;
 
-/// A run beside says again what the run has said.
+/// A further run would repeat the messages of the run.
 class Quiet {
  public:
   Quiet() : level_(logging::level()) { logging::set_level(logging::Level::silent); }
@@ -54,7 +54,7 @@ double elements_of_castings(const results::Summary& summary) {
   return sum;
 }
 
-/// How much finer a run was than one beside it.
+/// How much finer a run was than a further one.
 double ratio(results::ErrorPart part, AnalysisKind kind, const results::Summary& run,
              const results::Summary& beside) {
   if (part == results::ErrorPart::step)
@@ -63,7 +63,7 @@ double ratio(results::ErrorPart part, AnalysisKind kind, const results::Summary&
   return std::pow(elements, 1.0 / (kind == AnalysisKind::solid ? 3.0 : 2.0));
 }
 
-/// The summary of a run beside, or why there is none.
+/// The summary of a further run, or why there is none.
 struct Beside {
   std::optional<results::Summary> summary;
   std::string why_not;
@@ -93,7 +93,7 @@ ErrorRuns run_beside(const setup::Case& c, results::Summary summary, double disp
                      const RunOptions& options, const LoadBeside& load,
                      const std::function<void(const std::string&)>& say) {
   ErrorRuns made{std::move(summary), true};
-  // Two runs beside the run itself, with longer steps and with larger elements, tell by how much its answers
+  // Two further runs, with longer steps and with larger elements, tell by how much its answers
   // are off. A comparison that cannot be made leaves the estimate, and says why.
   const Wanted wanted[] = {
       {results::ErrorPart::step, "longer steps", "longer_steps",
@@ -102,7 +102,7 @@ ErrorRuns run_beside(const setup::Case& c, results::Summary summary, double disp
   for (const Wanted& comparison : wanted) {
     const auto leave = [&](const std::string& why) {
       made.complete = false;
-      say(fmt::format("no comparison with {}: {}; the estimate stands", comparison.name, why));
+      say(fmt::format("no comparison with {}: {}; the estimate is kept", comparison.name, why));
     };
     // A comparison that would mean nothing is not run.
     if (!comparison.how.why_not.empty()) {

@@ -1,4 +1,4 @@
-/// Runs beside a run, for the errors of its answers: `solidus run --sure`.
+/// Further runs along with a run, for the errors of its answers: `solidus run --sure`.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@ namespace solidus::run {
 /// Loads the case that ran, with further overrides.
 using LoadBeside = std::function<setup::Case(const std::vector<std::string>& overrides)>;
 
-/// What comes of the runs beside one.
+/// What comes of the further runs.
 struct ErrorRuns {
   results::Summary summary;  ///< that of the run, its answers with errors by comparison
-  bool complete = true;      ///< both comparisons were made; else the estimates stand where one is missing
+  bool complete = true;      ///< both comparisons were made; else the estimates are kept where one is missing
 };
 
 /// Runs the case with longer steps and with larger elements (cases/nearby_case.hpp), in the folders
 /// sure/longer_steps and sure/larger_elements of the run's, and takes the errors of its answers from the
-/// differences (results/answers/answer_comparison.hpp). A run beside it that cannot be made, does not end or
+/// differences (results/answers/answer_comparison.hpp). A further run that cannot be made, does not end or
 /// does not differ enough leaves the estimate. Writes summary.json again. Collective.
 /// @param summary             of the run, which must have ended
 /// @param displacement_error  of the case (displacement_error() of setup/time_input.hpp) [m]

@@ -124,7 +124,7 @@ Json triangles_of(const mesh::Mesh& mesh, const std::string& group, const Source
     for (const auto& [name, surface] : mesh.surfaces) names.push_back(name);
     throw InputError(where, fmt::format("the mesh has no group of faces '{}'", group), one_of(names, group));
   }
-  // Corners stand before mid nodes: three or four of each face.
+  // Corners come before mid nodes: three or four of each face.
   Json::Array triangles;
   for (const mesh::ElementBlock& block : found->second.faces) {
     const int corners = block.shape == mesh::Shape::tri3 || block.shape == mesh::Shape::tri6 ? 3 : 4;
@@ -192,7 +192,7 @@ void write_filling_input(setup::Case c, const std::filesystem::path& folder) {
   json.add("filling", filling_json(*c.spec.filling, a.mesh));
   json.add("bodies", bodies_json(c.spec, a, hottest + k_beyond))
       .add("interfaces", interfaces_json(a, hottest));
-  // Both files stand in a folder of their own.
+  // Both files are in a folder of their own.
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

@@ -139,8 +139,8 @@ void StressWorkWatch::report() const {
   if (!(excess_ > k_worth_saying * dissipated_ && excess_ > k_much_heat * moved_)) return;
   logging::info(
       "the stresses of the ends of steps do the work of whole steps: {:.3g} J of the heat of deformation, "
-      "beside {:.3g} J of dissipation, come of that; half as much with half the step, but of loads that act "
-      "at once, half of whose work is heat",
+      "compared with {:.3g} J of dissipation, come of that; half as much with half the step, but of loads "
+      "that act at once, half of whose work is heat",
       excess_, dissipated_);
 }
 

@@ -22,7 +22,7 @@ struct Neighbour {
 ///   [[parameter]]
 ///   name = "film"
 ///   change = 0.01
-///   set = ["thermal_condition.air.coefficient=1000.01 W/m2/K"]   # as --set, beside those of the run
+///   set = ["thermal_condition.air.coefficient=1000.01 W/m2/K"]   # as --set, in addition to those of the run
 ///
 /// @param load  the case with further assignments
 /// Throws InputError.

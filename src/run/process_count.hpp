@@ -1,4 +1,4 @@
-/// How many processes pay for a case, by what its steps cost (decision 0077). All numbers that decide stand
+/// How many processes pay for a case, by what its steps cost (decision 0077). All numbers that decide are
 /// in process_count.cpp.
 #pragma once
 

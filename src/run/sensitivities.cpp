@@ -26,8 +26,8 @@ constexpr std::string_view k_temperature = heat::fields::k_temperature.name;
 /// The probes of a case that sample temperatures, at points and over groups.
 std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {
   std::vector<results::Probe> probes;
-  // Other fields are left out without a complaint: a case may have probes of stresses beside those whose
-  // derivatives are wanted.
+  // Other fields are left out without a complaint: a case may have probes of stresses in addition to those
+  // whose derivatives are wanted.
   for (const results::Probe& probe : setup::probes(spec)) {
     const auto* point = std::get_if<results::PointProbe>(&probe);
     const auto* group = std::get_if<results::GroupProbe>(&probe);

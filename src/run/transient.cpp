@@ -34,7 +34,7 @@ std::unique_ptr<coupling::ShotMap> shot_map(const cases::CaseSpec& spec, const s
 }
 
 /// What steps are down to while the last melt freezes, as a share of the time since it was poured. Graphite
-/// that expands presses melt out of the mush to the very end, which moves what is beside it by half of the
+/// that expands presses melt out of the mush to the very end, which moves what is next to it by half of the
 /// whole distortion (decision 0090).
 double last_melt_share(const std::vector<results::CastBody>& cast,
                        const std::vector<material::Material>& materials) {

@@ -41,9 +41,9 @@ void set_walls(const cases::CaseSpec& spec, const mesh::Mesh& mesh, contact::Con
 bool holds(const cases::CaseSpec& spec, const cases::ContactSpec& contact, const mesh::Mesh& mesh,
            const cases::StageRun* stage);
 
-/// The names of the conditions and contacts of a stage that find no body: all they stand on has gone, or only
-/// conducts heat where they are mechanical. Throws InputError where the user names that stage for one whose
-/// body has gone, or where a contact's surface belongs to a body that has gone and one that stays.
+/// The names of the conditions and contacts of a stage that find no body: all that they act on has gone, or
+/// only conducts heat where they are mechanical. Throws InputError where the user names that stage for one
+/// whose body has gone, or where a contact's surface belongs to a body that has gone and one that stays.
 /// Collective.
 std::vector<std::string> without_body(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                       const cases::StageRun* stage);

@@ -179,7 +179,7 @@ void check_interface(const cases::CaseSpec& spec, const cases::ContactSpec& c) {
   throw InputError(
       c.where,
       fmt::format("the interface of the contact '{}' stores heat, but nothing conducts heat to it", c.name),
-      "a section [contact.heat] beside it in a case with heat, or no [contact.interface]");
+      "a section [contact.heat] along with it in a case with heat, or no [contact.interface]");
 }
 
 void check_contacts(const cases::CaseSpec& spec) {

@@ -116,7 +116,7 @@ class Layers {
   };
 
   /// A document over what it includes.
-  /// @param variants  the file of variants that it stands in, whose sections `include = ":NAME"` names; or
+  /// @param variants  the file of variants that it is in, whose sections `include = ":NAME"` names; or
   ///                  null
   Value merged(Value document, const Value* variants) {
     const Value* include = document.find("include");
@@ -173,7 +173,7 @@ class Layers {
   int n_files_ = 0;
 };
 
-/// Suggests names for a path that is not there: cases beside it, or variants of its folder, with
+/// Suggests names for a path that is not there: cases next to it, or variants of its folder, with
 /// nearly its name.
 std::string near_case(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

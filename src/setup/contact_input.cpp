@@ -53,7 +53,7 @@ void add_friction(const cases::ContactSpec& c, cases::Physics physics, contact::
                      "physics = \"thermomechanical\" or \"mechanics\", or no [contact.friction]");
   if (c.wear && !c.friction)
     throw InputError(c.wear->where, "wear without friction: nothing slides against a resistance",
-                     "a section [contact.friction] beside [contact.wear]");
+                     "a section [contact.friction] along with [contact.wear]");
   if (c.wear && c.wear->master_share > 0 && !c.surfaces.empty())
     throw InputError(c.wear->where, "'master_share' where the program chooses which surface is the master",
                      "'slave' and 'master' in place of 'surfaces'");

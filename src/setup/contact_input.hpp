@@ -19,7 +19,7 @@ std::vector<contact::ContactParameters> contact_specs(const cases::CaseSpec& spe
 /// one, 1 GPa (in an analysis of heat alone it is never used).
 std::vector<double> contact_moduli(const std::vector<material::Material>& materials);
 
-/// Sets from which gap on a liquid skin has left its wall, and the largest penalty beside a melt: by shares
+/// Sets from which gap on a liquid skin has left its wall, and the largest penalty next to a melt: by shares
 /// of the free linear contraction, from the liquidus to room temperature, of ten sections of the castings on
 /// the pair's surfaces, the smallest of them. A section is the same for a half between planes of symmetry and
 /// the whole, as their gaps are. Collective.
@@ -28,7 +28,7 @@ void set_leaving_gap(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                      const std::vector<material::Material>& materials, std::span<const double> sections,
                      contact::ContactParameters& pair);
 
-/// Sets the penalty of solid skins beside a melt (after set_leaving_gap): the factor on the stiffness of the
+/// Sets the penalty of solid skins next to a melt (after set_leaving_gap): the factor on the stiffness of the
 /// elements behind the softer of the two surfaces, whether their bodies deform or conduct heat alone. None
 /// where a body has no Young's modulus: how hard such a wall is remains unknown, most are of sand.
 /// Collective.

@@ -188,7 +188,7 @@ void check_depositions(const cases::CaseSpec& spec) {
       throw InputError(
           body.where,
           fmt::format("the body '{}' leaves while others grow, which is not possible yet", body.name),
-          "no 'stages' of bodies beside a [[deposition]]");
+          "no 'stages' of bodies together with a [[deposition]]");
 }
 
 void check_contacts_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {

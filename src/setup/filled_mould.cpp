@@ -78,16 +78,16 @@ namespace {
 /// @param depth   δ² [m²] to start with
 void add_heat_of_wall(double heat, std::span<const double> squares, double depth,
                       std::span<const double> weights, double limit, std::span<double> enthalpies) {
-  constexpr double k_far = 40;  // exp(-40) of the heat is none
-  constexpr int k_rounds = 60;  // of doubling, after which a body takes what is left as it comes
+  constexpr double k_negligible = 40;  // exp(-40) of the heat is none
+  constexpr int k_rounds = 60;         // of doubling, after which a body takes what is left as it comes
   double left = heat;
   for (int round = 0; round <= k_rounds && std::abs(left) > 1e-13 * std::abs(heat);
        ++round, depth = depth > 0 ? 2 * depth : 1e-12) {
     // The weights of the nodes with the volumes that they stand for make the share of the heat of each; a
     // depth of zero is a node on the face without time to heat up, which takes all.
     const auto share = [&](std::size_t k) {
-      const double power = depth > 0 ? squares[k] / (4 * depth) : squares[k] > 0 ? 2 * k_far : 0.0;
-      return power < k_far ? std::exp(-power) : 0.0;
+      const double power = depth > 0 ? squares[k] / (4 * depth) : squares[k] > 0 ? 2 * k_negligible : 0.0;
+      return power < k_negligible ? std::exp(-power) : 0.0;
     };
     double total = 0;
     for (std::size_t k = 0; k < squares.size(); ++k) total += weights[k] * share(k);

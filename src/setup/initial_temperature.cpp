@@ -185,7 +185,7 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
   for (const Index node : nodes) x.push_back(mesh.x[static_cast<std::size_t>(node)]);
   std::vector<double> temperatures(nodes.size()), enthalpies;
   run_collectively([&] { place_law(place, kind)->values(x, 0, temperatures); });
-  // A given temperature that rounding puts beside a change at one temperature is taken for it; the melt
+  // A given temperature that rounding puts off a change at one temperature is taken for it; the melt
   // then holds all of its latent heat.
   for (double& t : temperatures) enthalpies.push_back(curve.upper(t = snapped(t, curve)));
   Body body = at_nodes(mesh, nodes, enthalpies, curve);

@@ -209,7 +209,7 @@ void add_contacts(const std::vector<FoundInterface>& found, cases::CaseSpec& spe
   const contact::ContactParameters usual;
   for (const FoundInterface& f : found) {
     // A contact of the usual parameters for each pair of bodies that meet; what the section of the case says
-    // stands in it, the law of heat by the roles of the two bodies.
+    // is in it, the law of heat by the roles of the two bodies.
     const cases::BodyInterfaceSpec& section = spec.interfaces[f.section];
     cases::ContactSpec contact;
     const std::string pair = spec.bodies[static_cast<std::size_t>(f.a)].name + "_" +

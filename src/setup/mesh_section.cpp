@@ -41,17 +41,17 @@ void check_face_rule(const cases::MeshGroupSpec& g) {
   const auto refuse = [&](const std::string& what, const std::string& allowed) {
     throw InputError(g.where, fmt::format("the group '{}' of the mesh: {}", g.name, what), allowed);
   };
-  // A rule has the surface from its geometry alone; beside numbers or a label it would be open which of them
-  // decides.
+  // A rule has the surface from its geometry alone; along with numbers or a label it would be open which of
+  // them decides.
   if (g.kind == cases::MeshGroupSpec::Kind::body || !g.numbers.empty() || !g.label.empty())
-    refuse("a rule chooses faces of the mesh", "no kind = \"body\", numbers or label beside a rule");
+    refuse("a rule chooses faces of the mesh", "no kind = \"body\", numbers or label with a rule");
   for (const std::vector<double>* point : {&g.normal, &g.plane, &g.nearest})
     if (!point->empty() && point->size() != 3)
       refuse("a rule has a point or direction that is none", "three coordinates");
   // Keys that only make sense together are refused alone, for the half of a rule would choose other faces
   // than were meant.
   if (!g.plane.empty() && g.normal.empty())
-    refuse("'plane' is a point of a plane without its normal", "normal = [0, 0, 1] beside it");
+    refuse("'plane' is a point of a plane without its normal", "normal = [0, 0, 1] with it");
   if (!g.normal.empty() && !(std::hypot(g.normal[0], g.normal[1], g.normal[2]) > 0))
     refuse("'normal' has no length", "a direction");
 }
@@ -109,11 +109,12 @@ void check_casting(const cases::MeshSpec& m) {
     throw InputError(m.where, "'way' is for files that are meshed by the thickness of walls",
                      "[[mesh.size]] for each body, or no 'way'");
   if (of_casting(m) && (m.element_size || m.conforming))
-    throw InputError(m.where,
-                     fmt::format("'{}' beside sizes, mould, risers, chills or symmetry of [mesh], which make "
-                                 "sizes and shared faces themselves",
-                                 m.element_size ? "element_size" : "conforming"),
-                     "[[mesh.size]] for each body");
+    throw InputError(
+        m.where,
+        fmt::format("'{}' together with sizes, mould, risers, chills or symmetry of [mesh], which "
+                    "make sizes and shared faces themselves",
+                    m.element_size ? "element_size" : "conforming"),
+        "[[mesh.size]] for each body");
   // Risers and chills are checked by the rules that a file of feeders obeys too.
   cases::check_feeders(m.risers, m.chills);
 }

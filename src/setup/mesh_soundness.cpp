@@ -128,7 +128,7 @@ void make_sound(const cases::CaseSpec& spec, mesh::RawMesh& mesh) {
                         "inside of '{}'",
                         spec.bodies[a].name, spec.bodies[b].name, 100 * share, spec.bodies[b].name,
                         spec.bodies[a].name),
-            "bodies beside each other; a mould is hollow where its casting is");
+            "bodies next to each other; a mould is hollow where its casting is");
     }
 }
 

@@ -64,11 +64,11 @@ std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points) {
 
 ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPair& pair, AnalysisKind kind,
                                 const mesh::Point& gravity) {
-  constexpr double k_level = 0.05;  // cosine of the angle to gravity below which a face stands upright
+  constexpr double k_level = 0.05;  // cosine of the angle to gravity below which a face is upright
   const double weight =
       std::sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
   // What check tells of a contact: areas and sizes of faces of both sides, the gaps as the bodies lie, and
-  // how the faces stand to gravity.
+  // how the faces are inclined to gravity.
   ContactMeasures m;
   m.slave = pair.spec().slave;
   m.master = pair.spec().master;

@@ -23,7 +23,7 @@ struct ContactMeasures {
   double least_start = 0, largest_start = 0, mean_start = 0;
   double face_size = 0;         ///< mean of the slave's faces [m]
   double master_face_size = 0;  ///< of the master's; zero: a rigid tool [m]
-  /// Parts of the paired area where the master lies below the slave, as gravity acts, above it or beside it;
+  /// Parts of the paired area where the master lies below the slave, as gravity acts, above it or next to it;
   /// zero without gravity [m²].
   double below = 0, above = 0, beside = 0;
   GlobalIndex shared_nodes = 0;  ///< nodes that lie on both surfaces

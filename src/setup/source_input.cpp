@@ -100,7 +100,7 @@ heat::TravellingShape travelling_shape(const cases::SourceSpec& s, int dimension
   shape.rear = s.rear.value_or(shape.front);
   shape.front_share =
       s.front_share.value_or(shape.front > 0 ? shape.front / (shape.front + shape.rear) : 0.5);
-  // The beam comes from above where nothing is said.
+  // The beam comes from above where no direction is given.
   shape.direction = {};
   shape.direction[static_cast<std::size_t>(dimension) - 1] = -1;
   if (s.direction.empty()) return shape;

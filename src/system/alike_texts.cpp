@@ -93,7 +93,7 @@ std::vector<std::string> told_once(const std::vector<std::string>& texts) {
       kinds.push_back({std::move(now), text, {}});
       continue;
     }
-    // Names that both texts have, such as that of the mould beside each casting, stand in the first one.
+    // Names that both texts have, such as that of the mould next to each casting, are in the first one.
     std::vector<std::string> different;
     for (std::size_t n = 0; n < now.names.size(); ++n)
       if (now.names[n] != kind->first.names[n]) different.push_back(now.names[n]);

@@ -173,7 +173,7 @@ double CoreLoad::free_cores(double own_seconds) const {
   }
   // No tick has passed, and nothing can be said of the load.
   if (!(longest > 0)) return n;
-  // The time that this program itself has used counts as free, because it will not use it beside the
+  // The time that this program itself has used counts as free, because it will not use it along with the
   // processes that it starts.
   constexpr double k_ticks_a_second = 100;  // USER_HZ, whatever the kernel's own clock is
   return std::clamp(n - busy + own_seconds * k_ticks_a_second / longest, 0.0, n);

@@ -35,8 +35,8 @@ class CoreLoad {
   /// @param proc  where /proc is
   explicit CoreLoad(std::vector<Core> cores, std::filesystem::path proc = "/proc");
 
-  /// The cores that nobody else uses, on average since the making: all of them where /proc/stat tells
-  /// nothing. What runs at a lower priority (nice) does not count, since it stands back by itself.
+  /// The cores that no other program uses, on average since the making: all of them where /proc/stat tells
+  /// nothing. What runs at a lower priority (nice) does not count, since it gives way by itself.
   /// @param own_seconds  processor time that this process and its children have taken since then
   double free_cores(double own_seconds) const;
   int n_cores() const { return static_cast<int>(cores_.size()); }

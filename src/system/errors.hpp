@@ -36,9 +36,9 @@ enum class Failure {
   equilibrium,      ///< the balance of forces: its iteration did not converge
   linear_solver,    ///< the same, in one of its linear systems
   law,              ///< a constitutive law at some point
-  multipliers,      ///< the turns of the augmented Lagrangian
-  coupling,         ///< the phases, whose turns did not come to an end
-  divergence,       ///< the phases, whose turns led away from each other
+  multipliers,      ///< the augmentations of the augmented Lagrangian
+  coupling,         ///< the phases, whose iteration did not converge
+  divergence,       ///< the phases, whose iteration diverged
   another_solution  ///< temperatures do not follow from those at the start of the step
 };
 

@@ -62,7 +62,7 @@ void clear_warnings() {
 
 void message(Level level, std::string_view text) {
   Log& log = state();
-  // A warning is told once; others come as often as they are said.
+  // A warning is told once; others come as often as they are logged.
   if (level == Level::warn) {
     if (std::find(log.warnings.begin(), log.warnings.end(), text) != log.warnings.end()) return;
     log.warnings.emplace_back(text);

@@ -125,7 +125,7 @@ struct Skin {
   double leaving_gap = 0;  ///< 1 % of the free contraction [m]
   double liquid_gap = 0;   ///< the largest where the skin was below coherency [m]
   double heat_lost = 0;    ///< of the heat flow of closed contact, the largest share that a liquid skin lost
-  double push_off = 0;  ///< of ½ ρ g H² on the wall that stands, what is missing or more, the mean share
+  double push_off = 0;  ///< of ½ ρ g H² on the wall that is at rest, what is missing or more, the mean share
   double defect = 0;    ///< of the first law, over the heat exchanged
   double coherent_share = 0;  ///< of the skin at the end
   double left_area = 0;

@@ -149,7 +149,7 @@ TEST(CurvedFit, FindsItsPartnersFarFromTheOrigin) {
   EXPECT_NEAR(fitted("fit_far", 6, 8, k_contact, 1e5), fitted("fit_near", 6, 8, k_contact), 1e-6);
 }
 
-/// A drawn gap of a tenth of a millimetre, in which facets of a quarter of one stand, stays what it is.
+/// A drawn gap of a tenth of a millimetre, into which facets reach by a quarter of it, stays what it is.
 TEST(CurvedFit, KeepsAGapThatIsDrawn) {
   k_here.write("metal.toml", k_metal);
   k_here.write("drawn.geo", rings({4, 20, 20.1, 50}, 6, 8));
@@ -226,9 +226,9 @@ std::string skins_of_quarter_tubes() {
   for (const auto& [name, body, at] :
        {std::tuple("part_in", "part", 7.07), std::tuple("part_out", "part", 14.14),
         std::tuple("mould_in", "mould", 28.28), std::tuple("mould_out", "mould", 35.36)})
-    groups +=
-        fmt::format("[[mesh.group]]\nname = \"{}\"\nowner = \"{}\"\nnearest = [\"{} mm\", \"{} mm\", \"6 mm\"]\n",
-                    name, body, at, at);
+    groups += fmt::format(
+        "[[mesh.group]]\nname = \"{}\"\nowner = \"{}\"\nnearest = [\"{} mm\", \"{} mm\", \"6 mm\"]\n", name,
+        body, at, at);
   return groups;
 }
 

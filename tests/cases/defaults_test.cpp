@@ -360,9 +360,9 @@ field = "temperature"
 group = "block"
 )";
 
-// What heat first lags where deformation takes up much of the heat is said with its number: what δ_K exceeds
-// the expansion that is expected, (δ_K − ½)/1.5 steps with backward Euler, half of it with the two stages of
-// the default.
+// What heat first lags where deformation takes up much of the heat is reported with its number: what δ_K
+// exceeds the expansion that is expected, (δ_K − ½)/1.5 steps with backward Euler, half of it with the two
+// stages of the default.
 TEST(Defaults, ASplitSaysByHowManyStepsTemperaturesLagWhereTheCouplingIsStrong) {
   const CaseFolder folder("defaults_strong");
   folder.write("strong.toml", R"(

@@ -38,7 +38,7 @@ std::string step_file(const std::string& name, const std::function<void()>& draw
   return file;
 }
 
-/// A drum of 120 mm with an outlet whose side is tangent to it and a rib beside the seam of its face, which
+/// A drum of 120 mm with an outlet whose side is tangent to it and a rib next to the seam of its face, which
 /// Gmsh 4.8 refuses: "Impossible to mesh periodic surface".
 std::string drum() {
   return step_file("drum", [] {
@@ -95,7 +95,7 @@ std::string pins_in_a_yoke(bool with_boss) {
   });
 }
 
-/// A block with a pin that stands 10 mm deep in it and is not cut out.
+/// A block with a pin that reaches 10 mm deep in it and is not cut out.
 std::string sunk_in_pin() {
   return step_file("sunk_in_pin", [] {
     occ::addBox(-30, -20, 0, 60, 40, 20);

@@ -102,7 +102,7 @@ TEST(Feeders, SolidsAreWrittenWithNecksAndHollowSleeves) {
   EXPECT_FALSE(fs::exists(file.string() + ".geo"));
 }
 
-/// What is said of a file with these lines.
+/// What is reported of a file with these lines.
 std::string refusal(const std::string& text) {
   fs::create_directories(root());
   std::ofstream(root() / "feeders.toml") << text;

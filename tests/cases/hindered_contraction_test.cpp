@@ -1,5 +1,5 @@
 // A ring that freezes on a core and then shrinks onto it, with the penalty that the program chooses: soft
-// beside the melt, stiff where the skin is solid.
+// next to the melt, stiff where the skin is solid.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

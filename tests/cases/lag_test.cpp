@@ -1,5 +1,5 @@
-/// The lag of a run with defaults, of first order in the step, is said with its number: by `check` before it,
-/// and by the run at its end. Each number is that of a closed form.
+/// The lag of a run with defaults, of first order in the step, is reported with its number: by `check` before
+/// it, and by the run at its end. Each number is that of a closed form.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -266,7 +266,7 @@ TEST_P(LagOfWork, OfStressesIsSaidByTheRunAndHalvesWithTheStep) {
                                errors.back() * volume, said, excess * volume, heat * volume));
     EXPECT_NEAR(errors.back(), excess, 0.01 * excess);
     EXPECT_NEAR(said, excess * volume, 0.01 * excess * volume);
-    EXPECT_NEAR(printed.number_after("beside "), heat * volume, 0.01 * heat * volume);
+    EXPECT_NEAR(printed.number_after("compared with "), heat * volume, 0.01 * heat * volume);
   }
   EXPECT_GT(errors[0] / errors[1], 1.7);  // two but for the step in which the block begins to yield
   EXPECT_LT(errors[0] / errors[1], 2.1);

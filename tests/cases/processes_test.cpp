@@ -97,7 +97,7 @@ TEST_F(Processes, AStoppedCastingGoesOnFromFourToTwoToOneAsIfOneHadComputedItAll
   EXPECT_GT(one.at("plastic_work[J]").back(), 0);
 }
 
-// Mixed tetrahedra that freeze beside others that do not, in contact. Three processes, for of two messages
+// Mixed tetrahedra that freeze next to others that do not, in contact. Three processes, for of two messages
 // only one order is possible.
 TEST_F(Processes, MultigridOfMixedTetrahedraGivesTheSameBitsInEveryRunOnThree) {
   const std::string blocks =

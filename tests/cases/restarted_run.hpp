@@ -48,7 +48,7 @@ inline int from_environment(const char* name, int otherwise) {
 class RestartedRun : public ::testing::Test {
  protected:
   void SetUp() override { fs::remove_all(root()); }
-  /// The folder of the tests of one name: those of another may run beside them.
+  /// The folder of the tests of one name: those of another may run along with them.
   static fs::path root() {
     return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" /
            ::testing::UnitTest::GetInstance()->current_test_suite()->name();

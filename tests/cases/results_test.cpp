@@ -1,5 +1,5 @@
 /// Results of whole runs: of a steady state, of the second law, of surfaces that are covered in part, of
-/// probes over groups, of contact whose turns do not end, of tables with names that are taken.
+/// probes over groups, of contact whose augmentations do not end, of tables with names that are taken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -267,7 +267,7 @@ TEST(ContactPressure, IntegratesToTheForceOnASurfaceThatIsCoveredInPart) {
   EXPECT_NEAR(run.history.at("on_master[N]").back(), force, 1e-9 * force);
 }
 
-// A penalty this soft leaves nearly all of the penetration to the next turn.
+// A penalty this soft leaves nearly all of the penetration to the next augmentation.
 TEST(AugmentedLagrangian, WhoseTurnsDoNotEndSaysWhereAndAdvisesOnTheContactAlone) {
   std::string text = k_ledge;
   text.insert(text.find("[[probe]]"), "normal = \"augmented_lagrangian\"\npenalty_factor = 1e-4\n");

@@ -15,7 +15,7 @@ const solidus::testing::CaseFolder k_here("sleeves");
 
 const std::string k_title = "title = \"A casting on a slab that burns\"\n";
 
-/// A block that burns beside a casting; insulated outside.
+/// A block that burns next to a casting; insulated outside.
 const std::string k_block = R"([analysis]
 kind = "plane_strain"
 physics = "heat"

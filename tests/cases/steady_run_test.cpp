@@ -203,7 +203,7 @@ TEST(OneWayCoupling, GoesWithEveryScheme) {
     EXPECT_EQ(isentropic.history.at(column), isothermal.history.at(column));
     const double fine = two_stages.history.at(column).back();
     EXPECT_NEAR(iterated.history.at(column).back(), together.history.at(column).back(), 1e-6 * fine);
-    // Second order beside first.
+    // Second order next to first.
     EXPECT_LT(std::abs(double_pass.history.at(column).back() - fine),
               0.1 * std::abs(together.history.at(column).back() - fine));
     EXPECT_NEAR(together.history.at(column).back(), fine, 0.02 * fine);

@@ -206,7 +206,7 @@ TEST(NewCase, WhereAPartIsThickestBesideThePlaneOfSymmetryEachHalfHasARiser) {
   const std::size_t found = report.text.find(before);
   ASSERT_NE(found, std::string::npos) << report.text;
   EXPECT_NEAR(std::stod(report.text.substr(found + before.size())), 60, 0.5);
-  EXPECT_THAT(report.text, HasSubstr(" mm beside the plane of symmetry: there is a riser on each half"));
+  EXPECT_THAT(report.text, HasSubstr(" mm off the plane of symmetry: there is a riser on each half"));
   const solidus::setup::Case c = solidus::setup::load_case(report.file, {}, solidus::cases::Physics::heat);
   const solidus::cases::RiserBlockSpec& riser = c.spec.mesh.risers.at(0);
   EXPECT_NEAR(riser.foot[1], -0.06, 1e-3);

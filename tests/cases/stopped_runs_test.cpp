@@ -151,7 +151,7 @@ TEST_F(StoppedRuns, AFullDiskAtACheckpointIsSaidAndTheRunCanGoOn) {
 // many random ones as `./dev disk` asks for.
 TEST_F(StoppedRuns, ADiskThatFillsUpEndsTheRunAndTheRestGivesTheSameBytes) {
   if (shell("unshare -rm true").code != 0)
-    GTEST_SKIP() << "this system lets nobody but root mount a disk of its own";
+    GTEST_SKIP() << "this system lets only root mount a disk of its own";
   const fs::path disk = root() / "disk";
   fs::create_directories(disk);
   const std::string every = "--set output.checkpoint_every=1 --set output.every='\"1 s\"'";

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 const fs::path k_folder = fs::path(SOLIDUS_SOURCE_DIR) / "cases/thick_cylinder";
 
-/// A variant as it stands, or with one more setting; run once for all tests.
+/// A variant as it is, or with one more setting; run once for all tests.
 const CaseRun& run(const std::string& variant, const std::string& setting = {}) {
   static std::map<std::string, CaseRun> runs;
   const auto found = runs.find(variant + setting);

@@ -1,4 +1,4 @@
-/// Any bytes as a table of points in space and time, and as measured points beside a curve.
+/// Any bytes as a table of points in space and time, and as measured points next to a curve.
 #include "input.hpp"
 #include "input/point_table.hpp"
 #include "point/measured.hpp"

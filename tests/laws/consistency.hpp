@@ -13,7 +13,7 @@
 
 namespace solidus {
 
-/// Functions of a number that the laws need beside exp and log.
+/// Functions of a number that the laws need besides exp and log.
 inline Jet<double> sqrt(const Jet<double>& a) {
   const double root = std::sqrt(a.v);
   return Jet<double>::chain(a, {root, 0.5 / root, -0.25 / (root * a.v)});

@@ -82,7 +82,7 @@ std::optional<RawMesh> read(const std::string& path, double unit_in_metres) {
       file >> marker;
     else
       file >> n;
-    if (!file) throw InputError({path}, "nothing stands behind '" + word + "'");
+    if (!file) throw InputError({path}, "nothing follows '" + word + "'");
     if (word == "NDIME=") mesh.dimension = static_cast<int>(n);
     if (word == "NPOIN=") read_points(file, n, unit_in_metres, mesh);
     const bool body = word == "NELEM=";

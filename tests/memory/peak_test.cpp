@@ -98,7 +98,7 @@ TEST(Memory, CuttingAMeshTakesLessThanThreeMeshes) {
   const double most = most_by([&] { mesh = mesh::distribute(std::move(raw), {"block"}, {}, {}); });
   EXPECT_TRUE(raw.x.empty());
   EXPECT_EQ(mesh.x.size(), static_cast<std::size_t>(k_nodes));
-  EXPECT_LT(most, 480) << "bytes a node beside the mesh as it was made, 165";
+  EXPECT_LT(most, 480) << "bytes a node besides the mesh as it was made, 165";
 }
 
 TEST(Memory, MeasuringBodiesLooksAtAPartOfTheirElements) {

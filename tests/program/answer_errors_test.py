@@ -1,4 +1,4 @@
-"""The errors that a run states of its answers: against finer runs, and by comparison with runs beside it."""
+"""The errors that a run states of its answers: against finer runs, and by comparison with further runs."""
 
 import re
 import statistics
@@ -77,7 +77,7 @@ class Sure(ProgramTest):
         self.write("case.toml", CASE.format(end=40, feeders="top"))
         told = self.done("run", "case.toml", "--sure", "--no-progress", "-o", "out")
         self.assertIn("no comparison with larger elements: the sizes of the elements of", told)
-        self.assertIn("the estimate stands", told)
+        self.assertIn("the estimate is kept", told)
         self.assertIn("compared with longer steps, a factor of 2", told)
 
     def test_of_a_steady_case_is_refused(self):

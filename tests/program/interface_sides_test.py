@@ -78,7 +78,7 @@ class Sides(ProgramTest):
                    'slave_conductance = "3000 W/m2/K"\nmaster_conductance = "6000 W/m2/K"\n')
         refused = solidus("check", "both.toml", cwd=self.folder)
         self.assertEqual(refused.returncode, 1)
-        self.assertIn("'slave_resistance' beside a law that has both sides", refused.stdout + refused.stderr)
+        self.assertIn("'slave_resistance' with a law that has both sides", refused.stdout + refused.stderr)
 
     def test_spots_conduct_by_both_materials(self):
         given = self.end("given", SPOTS + 'conductivity = "80 W/m/K"\n')  # 2 x 200 x 50/250

@@ -60,8 +60,8 @@ Outcome try_out(const BadInput& input) {
   return outcome;
 }
 
-/// The outcome of an input, while the next ones already run beside it: the program's start is most of the
-/// time.
+/// The outcome of an input, while the next ones already run at the same time: the program's start is most of
+/// the time.
 Outcome outcome_of(const std::string& name) {
   static const std::vector<BadInput> inputs = all();
   static std::vector<std::shared_future<Outcome>> outcomes(inputs.size());
@@ -82,7 +82,7 @@ TEST_P(BadInputTest, GivesOneClearMessageAndExitCodeOne) {
   EXPECT_EQ(outcome.code, 1) << outcome.errors;
   for (const std::string& phrase : GetParam().phrases) EXPECT_THAT(outcome.errors, HasSubstr(phrase));
   // One message: it begins with the program's name, and nothing else speaks (libraries, MPI, the shell). On a
-  // busy machine it stands behind those that reading goes on.
+  // busy machine it waits behind those that read on.
   std::string message = outcome.errors;
   for (std::size_t end = message.find('\n');
        message.starts_with("info: ") && message.substr(0, end).find(" is being read or meshed for ") < end;

@@ -78,7 +78,7 @@ conductivity = "40 W/m/K"
 specific_heat = "500 J/kg/K"
 )";
 
-/// It yields too; its flow stress stands in line 9, last.
+/// It yields too; its flow stress is in line 9, last.
 const std::string k_plastic_material = k_material + R"(young_modulus = "200 GPa"
 poisson_ratio = 0.3
 expansion = "1.2e-5 1/K"

@@ -19,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using namespace solidus::tests;
 
-/// A copy of the program in a folder whose name has a blank, and what stands in for its reader there.
+/// A copy of the program in a folder whose name has a blank, and what replaces its reader there.
 class ForeignReader : public ForeignFiles {
  protected:
   void SetUp() override {
@@ -52,7 +52,7 @@ TEST_F(ForeignReader, IsFoundBesideTheProgramWhateverThePathAndTheFolder) {
 }
 
 TEST_F(ForeignReader, ThatIsMissingOrCannotBeStartedIsNamed) {
-  expect_nothing_read({"part.geo", "'solidus-reader', is missing beside"});
+  expect_nothing_read({"part.geo", "'solidus-reader', is missing next to"});
   fs::create_directory(folder_ / "a copy/solidus-reader");
   expect_nothing_read({"part.geo", "a copy/solidus-reader', cannot be started"});
   fs::remove(folder_ / "a copy/solidus-reader");

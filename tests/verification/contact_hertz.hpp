@@ -46,7 +46,7 @@ inline double hertz_arc(double x) {
 
 inline mesh::Mesh hertz_mesh(const HertzCase& c) {
   const double w = k_hertz_width;
-  // The block's lines stand between those of the cap; beside a rigid plane it has nothing to do.
+  // The block's lines lie between those of the cap; with a rigid plane it is idle.
   const bool idle = c.bodies == HertzCase::Bodies::round_on_rigid;
   const int m = c.n - c.n / 8;
   const std::vector<int> divisions = idle ? std::vector{2, 2} : std::vector{m, c.n};

@@ -167,7 +167,7 @@ TEST(Hertz, HasPressuresThatDoNotDependOnThePenaltyAtMeansAroundNodes) {
 }
 
 // As a case of solid bodies has it that says nothing of its normal law (docs/decisions/0033): multipliers
-// with the penalty of segments, until a turn changes pressures by less than 1 % of the largest.
+// with the penalty of segments, until an augmentation changes pressures by less than 1 % of the largest.
 TEST(Hertz, HasPressuresByDefaultNoFartherFromTheEllipseThanWithThePenaltyAlone) {
   auto table = verification::table("contact_hertz_default", "kind,n,law,p0,deviation,turns,iterations");
   for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric})
@@ -195,7 +195,7 @@ TEST(Hertz, HasPressuresByDefaultNoFartherFromTheEllipseThanWithThePenaltyAlone)
     }
 }
 
-// The mesh on which the augmented Lagrangian once took 60 turns and more: 48 triangles under half the
+// The mesh on which the augmented Lagrangian once took 60 augmentations and more: 48 triangles under half the
 // contact.
 TEST(Hertz, OfAFineMeshOfTrianglesEndsInFewTurnsOfTheAugmentedLagrangian) {
   Hertz hertz({.bodies = Bodies::round_on_rigid,

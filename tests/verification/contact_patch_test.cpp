@@ -122,7 +122,7 @@ TEST_P(ContactPatch, LeavesNoPenetrationWithTheAugmentedLagrangian) {
   EXPECT_LT(d.stress, 1e-8);
   // The tolerance is a millionth of the mean face, 0.3/5 m in the plane and smaller in space.
   EXPECT_LT(d.left, 6e-8);
-  // The first turn leaves p/ε_N, 7e-7 m here; under a given load the second one leaves nothing.
+  // The first augmentation leaves p/ε_N, 7e-7 m here; under a given load the second one leaves nothing.
   EXPECT_LE(d.turns, 3);
 }
 

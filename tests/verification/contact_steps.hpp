@@ -36,7 +36,7 @@ class WatchedTerm : public linear::Contribution {
   linear::Contribution& term_;
 };
 
-/// Record of Newton's iteration in one turn of a step.
+/// Record of Newton's iteration in one augmentation of a step.
 struct Iteration {
   std::vector<double> residuals;     ///< relative, before each solve and at the end
   std::vector<GlobalIndex> changes;  ///< of status, at each residual that was computed

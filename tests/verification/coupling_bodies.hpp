@@ -43,7 +43,7 @@ struct Coupled {
   double gap_tolerance = 1;                                            ///< of them with heat first
   /// The same of the sequential splits and of the double pass.
   coupling::ThermalFlow thermal_flow = coupling::ThermalFlow::kept;
-  /// Present: passes of `mapping` in turn until they agree.
+  /// Present: passes of `mapping` in alternation until they agree.
   std::optional<coupling::IterationOptions> iteration;
   /// Θ_a of 𝓛; absent: as the conditions say, where they are admissible (admissible_ambient.hpp).
   std::optional<double> ambient;

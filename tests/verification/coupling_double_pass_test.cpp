@@ -214,7 +214,7 @@ TEST(DoublePass, OfIsothermalPassesIsOfSecondOrderToo) {
             d.temperature.back().mean);
 }
 
-// At six times the expansion a turn of an isothermal pass makes the error larger.
+// At six times the expansion one more isothermal pass makes the error larger.
 TEST(DoublePass, OfIsothermalPassesRejectsStepsWhereTheCouplingIsTooStrong) {
   Coupled c = wall(6, true);
   c.mapping = Mapping::isothermal;
@@ -258,7 +258,7 @@ Coupled strip(const Moving& m, double delta) {
 }
 
 // A split is of first order with inertia whatever the integrator; the double pass keeps the integrator's.
-// Beside the surface, whose temperature is prescribed, SDIRK2 by itself is of order 1.5, at 1e-6 of the rise.
+// Next to the surface, whose temperature is prescribed, SDIRK2 by itself is of order 1.5, 1e-6 of the rise.
 TEST(DoublePass, WithInertiaIsOfSecondOrderAndTheSplitOfFirst) {
   auto out = verification::table("coupling_double_pass_inertia", "scheme,dt,T[dT],u[largest]");
   const std::vector<int> n_steps{100, 200, 400};

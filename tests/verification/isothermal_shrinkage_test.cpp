@@ -1,5 +1,5 @@
 /// A block of an alloy that freezes at one temperature is cooled evenly, by a heat sink in its volume. While
-/// the temperature stands still the heat drawn alone says how much is solid: the block shrinks in proportion
+/// the temperature is constant the heat drawn alone says how much is solid: the block shrinks in proportion
 /// to it, every node alike, in every step.
 ///
 ///    │▒▒▒▒▒▒│     free to shrink, insulated, from 900 K on, the temperature of its change;

@@ -97,7 +97,7 @@ TEST(WeinerBoley, StressProfilesAtFiveAndTwentyOneSecondsAreWithinHalfAMegapasca
 }
 
 // Size of the elements and step are halved together. The mechanical phase sees the temperatures of the last
-// step (isothermal split), and the front stands between two nodes: both of first order, which the stress,
+// step (isothermal split), and the front lies between two nodes: both of first order, which the stress,
 // steep where it is elastic, shows.
 TEST(WeinerBoley, ARoundDiscOfAxisymmetricElementsConvergesToTheProfiles) {
   auto out = verification::table("plasticity_slab_order", "h[mm],stress_at_5_s[MPa],stress_at_21_s[MPa]");

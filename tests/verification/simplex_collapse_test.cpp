@@ -1,5 +1,5 @@
 /// Collapse loads with stabilised triangles and tetrahedra: Hill's tube and Prandtl's punch
-/// (collapse_bodies.hpp), beside quads with B-bar and simplices of the displacement alone.
+/// (collapse_bodies.hpp), along with quads with B-bar and simplices of the displacement alone.
 #include <gtest/gtest.h>
 
 #include "collapse_bodies.hpp"

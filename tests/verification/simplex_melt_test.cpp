@@ -271,7 +271,7 @@ TEST(ClosedMush, OpensPoresBeyondItsPressureDropAndKeepsThem) {
 /// The share of its contraction that a column of mush follows in the last of some steps of 1 s. It is held at
 /// the sides, so its network contracts in height alone: the mean stress ζ (ε̇ − ψ ė) of compaction, with
 /// ψ = (f_S − f_c)/(1 − f_c), and the deviatoric stress of the Maxwell element with the strain ⅔ ε add up to
-/// what the melt above presses with, nothing beside them.
+/// what the melt above presses with, nothing compared with them.
 double followed(const material::Material& metal, const std::vector<double>& temperatures,
                 double contraction) {
   const material::MushViscosity mush = material::mush_viscosity(metal);

@@ -16,7 +16,7 @@ class Calibrate final : public Verb {
     command().add_option("MEASURED", measured_, "Readings: a table as a logger writes it")->required();
     command().add_flag("--heat-only", case_.heat_only, "Compute heat alone");
     command()
-        .add_option("--unknowns", unknowns_, "What is unknown; default calibrate.toml beside the case")
+        .add_option("--unknowns", unknowns_, "What is unknown; default calibrate.toml next to the case")
         ->type_name("FILE");
     command()
         .add_option("-o,--output", output_, "Folder of all runs; default results/CASE/calibrate")

@@ -152,7 +152,7 @@ std::string advice(const fs::path& launcher, bool there) {
 }
 
 /// Two processes of one run print its versions once; two that do not find each other print them twice.
-/// The mpirun beside the program, which an archive brings, is taken before that of PATH.
+/// The mpirun next to the program, which an archive brings, is taken before that of PATH.
 Finding try_two_processes() {
   const fs::path beside = program_path().parent_path() / "mpirun";
   const fs::path launcher = fs::exists(beside) ? beside : "mpirun";

@@ -67,7 +67,7 @@ constexpr const char* k_variants_schema = R"({
       "additionalProperties": { "$ref": "case.schema.json" }
     },
     "variant": {
-      "description": "[variant.NAME], laid over the case.toml beside this file and run as CASE:NAME",
+      "description": "[variant.NAME], laid over the case.toml next to this file and run as CASE:NAME",
       "type": "object",
       "additionalProperties": { "$ref": "case.schema.json" }
     }

@@ -171,7 +171,7 @@ void write_curve(const Curve& curve, const point::History& history, const fs::pa
     summary.notes += "  warning: " + outside + "\n";
   }
   summary.lines += line(curve, history);
-  // Measured curves are written beside the computed one, with the deviation of each column.
+  // Measured curves are written next to the computed one, with the deviation of each column.
   if (curve.measured) {
     const std::string file = curve.name + "_measured.csv";
     results::write_file(folder / file, table(*curve.measured));

@@ -46,7 +46,7 @@ struct RunArguments : CaseArguments {
   bool report = false;           ///< write the report at the end
   std::optional<int> processes;  ///< absent: as many as pay
   std::string sensitivities;     ///< file of the parameters of derivatives; empty: none
-  bool sure = false;             ///< compare with runs beside it for the errors of the answers
+  bool sure = false;             ///< compare with further runs for the errors of the answers
 };
 
 constexpr int k_most_processes = 1024;  // of one machine
@@ -71,20 +71,20 @@ CaseArguments with(const RunArguments& arguments, const std::vector<std::string>
   return beside;
 }
 
-/// Runs the case, and what --sure asks for beside it.
+/// Runs the case, and what --sure asks for in addition.
 run::RunResult run_all(const RunArguments& arguments, const setup::Case& c, run::RunOptions options) {
   std::optional<results::Summary> summary;
   double displacement_error = 0;
   {
-    run::Session session(c, options);  // whose memory the runs beside it need
+    run::Session session(c, options);  // whose memory the further runs need
     const run::RunResult result = session.run();
     if (!result.finished || !arguments.sure) return result;
     summary = *session.summary();
-    options.mesh.reset();  // those beside it have others
+    options.mesh.reset();  // the further runs have others
     displacement_error =
         setup::displacement_error(c.spec.time, setup::sections_of(c.spec, session.assembly().mesh));
   }
-  // The runs beside it differ in some keys alone; all else is as given on the command line.
+  // The further runs differ in some keys alone; all else is as given on the command line.
   const auto load = [&](const std::vector<std::string>& overrides) {
     return load_case(with(arguments, overrides));
   };
@@ -107,7 +107,7 @@ setup::Case read_case(const RunArguments& arguments) {
   return c;
 }
 
-/// The case with the mould filled, in the folder `filling` beside the results. Processes that a launcher has
+/// The case with the mould filled, in the folder `filling` next to the results. Processes that a launcher has
 /// started find it filled.
 /// Returns how filling ended where it did not end well.
 std::optional<ExitCode> fill_first(RunArguments& arguments, setup::Case& c) {
@@ -127,7 +127,7 @@ std::optional<ExitCode> fill_first(RunArguments& arguments, setup::Case& c) {
 
 ExitCode run_case(RunArguments arguments) {
   // The order of a run at the command line: case, options, the page that watches it, the run itself, and what
-  // is said at its end.
+  // is printed at its end.
   setup::Case c = read_case(arguments);
   if (const std::optional<ExitCode> ended = fill_first(arguments, c)) return *ended;
   if (arguments.sure && c.spec.time.steady)
@@ -185,7 +185,7 @@ class Run final : public Verb {
   explicit Run(CLI::App& program) : Verb(program, "run", "Run a case") {
     RunArguments& a = arguments_;
     // The case comes first, then where the results go and on how many processes, how the run is shown, and
-    // what it may do beside it.
+    // what it may do in addition.
     add_case(command(), a);
     command()
         .add_option("-o,--output", a.output, "Folder of the results; default results/CASE/VARIANT")
@@ -207,7 +207,7 @@ class Run final : public Verb {
         "Write report.html, a page for the browser, into the folder of the results at the end");
     command().add_flag("--watch", a.watch,
                        "Show the report while the run goes on, at an address of this machine alone");
-    // Derivatives, and the runs beside it for errors.
+    // Derivatives, and the further runs for errors.
     command()
         .add_option(
             "--sensitivities", a.sensitivities,

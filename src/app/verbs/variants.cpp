@@ -15,7 +15,7 @@ ExitCode list_variants(const std::string& path) {
   const setup::CaseName name = setup::case_named(path);
   const std::vector<setup::VariantInfo> variants = setup::variants_beside(name.file);
   if (variants.empty()) {
-    print(fmt::format("{} has no variants: there is no variants.toml beside it.\n", name.file.string()));
+    print(fmt::format("{} has no variants: there is no variants.toml next to it.\n", name.file.string()));
     return k_done;
   }
   // Names in a column as wide as the longest, with the titles behind them.

@@ -36,7 +36,7 @@ void amounts(const Burning& burning) {
                  "sleeves burn for half a minute to some minutes");
 }
 
-/// Above it nothing ignites: what stands there was switched off [K].
+/// Above it nothing ignites: what is there was switched off [K].
 constexpr double k_switched_off = 3000;
 
 void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {

@@ -227,7 +227,7 @@ void heating(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMe
   }
 }
 
-/// A body that can melt, but starts cold beside one that is poured.
+/// A body that can melt, but starts cold next to one that is poured.
 void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                    Findings& findings) {
   if (m.pours.empty() || !spec.criteria.follow) return;
@@ -303,11 +303,11 @@ void bodies_that_melt(const cases::CaseSpec& spec, const setup::Assembly& a, con
                      "melts from {:.0f} degC on",
                      celsius(common), spec.bodies[b].name, spec.bodies[b].material,
                      celsius(freezing->fraction.solidus())),
-         "a mould that stands the heat of what lies in it, or a colder start"});
+         "a mould that withstands the heat of what lies in it, or a colder start"});
   }
 }
 
-/// Melt beside melt: a contact parts them, and common nodes make two alloys one liquid.
+/// Melt next to melt: a contact parts them, and common nodes make two alloys one liquid.
 void melts_side_by_side(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                         Findings& findings) {
   const auto poured = [&](int body) {
@@ -368,13 +368,13 @@ FindingFamily findings_freezing() {
       .rows = {
           {Topic::materials, "a second casting starts partly solid",
            "between solidus and liquidus, where another body is hotter"},
-          {Topic::materials, "melt beside melt",
+          {Topic::materials, "melt next to melt",
            "a contact joins two bodies that are poured; two alloys that are poured share nodes"},
           {Topic::materials, "a body melts",
            "nothing is poured, and all bodies together, with no heat from or to elsewhere, come above its "
            "solidus"},
           {Topic::materials, "a chill counts as a casting",
-           "its material can freeze, it starts solid beside a body that is poured"},
+           "its material can freeze, it starts solid next to a body that is poured"},
           {Topic::pour, "nothing cools it; it does not freeze", "by the estimate"},
           {Topic::pour,
            "its skin is held above the solidus; its surroundings are hotter than that, in whatever stage",

@@ -22,7 +22,7 @@ constexpr double k_apart = 2e-3, k_apart_of_body = 0.02;  // [m]; of the size of
 constexpr double k_spanned = 0.5;                         // share of elements from skin to skin
 constexpr double k_coarse = 2;                            // mean edge, of the depth
 constexpr double k_coarse_mould = 2;                      // shortest edge, of the depth that heat reaches
-// An edge over another one of its element. Layers of sand taper beside edges of a casting; nothing bends
+// An edge over another one of its element. Layers of sand taper next to edges of a casting; nothing bends
 // there where a body conducts heat alone.
 constexpr double k_flat = 150, k_flat_in_layers = 300, k_flat_in_casting = 50;
 constexpr double k_small = 3e-3;  // a casting [m]

@@ -1,4 +1,4 @@
-// Findings on the interfaces of the bodies: contacts, and films beside them.
+// Findings on the interfaces of the bodies: contacts, and films next to them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -237,7 +237,7 @@ FindingFamily findings_interface() {
                             number(k_same_temperature))},
                {Topic::contacts, "one emissivity alone", "nothing radiates across the contact"},
                {Topic::contacts, "a film lies on a surface in contact; two films on one surface",
-                "films that are one number; those of place or time take turns"},
+                "films that are one number; those of place or time may follow each other"},
                {Topic::contacts, "conductance of a contact",
                 fmt::format("below {} or above {} W/m²K; above {} it is an error",
                             number(PowerContact::k_least_usual), number(PowerContact::k_most_usual),

@@ -171,7 +171,7 @@ void compare_ratios(const cases::BodySpec& body, const material::Material& m, Fi
   const double stiff = m.young_modulus.max_value(), hardening = m.flow->hardening[0].max_value();
   if (hardening > k_most_hardening * stiff)
     warn_of_material(body,
-                     fmt::format("hardening_modulus of {:.3g} GPa beside a young_modulus of {:.3g} GPa",
+                     fmt::format("hardening_modulus of {:.3g} GPa with a young_modulus of {:.3g} GPa",
                                  1e-9 * hardening, 1e-9 * stiff),
                      "metals harden with 0.001 to 0.05 of their young_modulus", findings);
 }
@@ -209,12 +209,12 @@ void compare_latent_heat(const cases::BodySpec& body, const material::Material& 
   for (std::size_t i = 0; i < c.x().size(); ++i)
     if (c.x()[i] > low && c.x()[i] < high) most = std::max(most, c.y()[i]);
   if (most > k_hump * around)
-    warn_of_material(body,
-                     fmt::format("the specific heat rises to {:.4g} J/kg/K where it freezes, beside a latent "
-                                 "heat of {:.4g} kJ/kg: is it counted twice?",
-                                 most, 1e-3 * m.solidification()->latent_heat),
-                     "specific_heat without the latent heat, 500 to 1300 J/kg/K, on a line across the range",
-                     findings);
+    warn_of_material(
+        body,
+        fmt::format("the specific heat rises to {:.4g} J/kg/K where it freezes, in addition to a "
+                    "latent heat of {:.4g} kJ/kg: is it counted twice?",
+                    most, 1e-3 * m.solidification()->latent_heat),
+        "specific_heat without the latent heat, 500 to 1300 J/kg/K, on a line across the range", findings);
 }
 
 /// Heat as of freezing that no solid fraction belongs to: of a body that is no casting by its role, or of a

@@ -106,7 +106,7 @@ void held_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const Cas
              fmt::format(
                  "'{}' holds the surface '{}' of '{}', on which the contact '{}' acts: no gap can open",
                  c.name, surface, spec.bodies[static_cast<std::size_t>(body)].name, spec.contacts[k].name),
-             "supports beside the contact, on a few nodes"});
+             "supports in addition to the contact, on a few nodes"});
       }
     }
   }

@@ -116,12 +116,12 @@ void cold_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const Case
              "gets {:.3g} mm far until the casting is solid",
              c.name, spec.bodies[b].name, units::to_display(c.temperature.table.value(0), "K", "degC"),
              1e3 * wall, 1e3 * reached),
-         "sand stands in air: a film of 5 to 20 W/m2/K and radiation"});
+         "sand is in air: a film of 5 to 20 W/m2/K and radiation"});
   }
 }
 
 /// Moulds of sand that together are thinner than heat goes deep while the casting freezes: their outside then
-/// decides. Ceramic shells are thin, and stand in air.
+/// decides. Ceramic shells are thin, and are in air.
 void thin_sand(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double reach = 0, metal = 0, volume = 0;
   // Metal that the mould must take the heat of: the depth is that of the slowest, the area that of

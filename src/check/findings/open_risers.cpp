@@ -54,7 +54,7 @@ std::map<std::size_t, OpenSkin> open_skins(const cases::CaseSpec& spec, const se
   }
   const auto held_faces = mesh::body_face_keys(a.mesh, held),
              cooled_faces = mesh::body_face_keys(a.mesh, cooled);
-  // Areas by direction: up or beside, held or free, cooled or bare.
+  // Areas by direction: up or sideways, held or free, cooled or bare.
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const auto found = skins.find(static_cast<std::size_t>(face.body));
     if (found == skins.end()) return;
@@ -97,8 +97,8 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
         skin.beside > k_least_share_of_skin * skin.all)
       findings.push_back(
           {false, spec.analysis.where,
-           fmt::format("the riser '{}' is closed on top and open beside, as gravity acts: {:.0f} % of its "
-                       "skin there have neither a contact nor a support",
+           fmt::format("the riser '{}' is closed on top and open at its side, as gravity acts: {:.0f} % of "
+                       "its skin there have neither a contact nor a support",
                        riser.name, 100 * skin.beside / skin.all),
            "is gravity_direction right? A riser is open on top, or its mould closes it all round"});
   }

@@ -1,5 +1,5 @@
 // Warnings and errors that other rooms give and whoever reads the findings looks for: of reading and building
-// a case, and of the run. Their numbers stand where they are compared.
+// a case, and of the run. Their numbers are written where they are compared.
 #include "check/finding_family.hpp"
 
 namespace solidus::check {

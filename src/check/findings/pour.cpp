@@ -42,7 +42,7 @@ bool has_mould(const cases::CaseSpec& spec, std::size_t other_than) {
   return false;
 }
 
-/// Bodies with the role of a casting or riser that do not freeze, beside others that do.
+/// Bodies with the role of a casting or riser that do not freeze, next to others that do.
 void risers_that_do_not_freeze(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const cases::BodySpec& body = spec.bodies[b];
@@ -153,7 +153,7 @@ FindingFamily findings_pour() {
                    {Topic::pour, "a casting of what does not freeze",
                     fmt::format("a body has the role of a casting or riser, or nothing in the case freezes "
                                 "and the hottest one is of sand above {0:.0f} °C or starts above {0:.0f} °C "
-                                "without a role beside what is a mould, core or chill by role or name",
+                                "without a role next to what is a mould, core or chill by role or name",
                                 k_hot - k_zero_celsius)},
                    {Topic::pour, "roles swapped",
                     "the hottest body is given another role than `casting` or `riser`, and a body that role"},

@@ -134,7 +134,7 @@ void risers_below_castings(const cases::CaseSpec& spec, const CaseMeasures& m, F
     findings.push_back({false, spec.bodies[riser.body].where,
                         fmt::format("the riser '{}' ends below the middle of '{}', as gravity acts",
                                     spec.bodies[riser.body].name, spec.bodies[fed->body].name),
-                        "risers stand above what they feed or beside its top; is gravity_direction right?"});
+                        "risers are above what they feed or next to its top; is gravity_direction right?"});
   }
 }
 
@@ -235,7 +235,7 @@ void moulds_in_kelvins(const cases::CaseSpec& spec, const setup::Assembly& a, co
   }
 }
 
-/// Melt that only conducts, beside melt that deforms: neither draws on the other.
+/// Melt that only conducts, next to melt that deforms: neither draws on the other.
 void castings_that_only_conduct(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   if (!spec.has_mechanics()) return;
   for (const Pour& still : m.pours) {
@@ -252,7 +252,7 @@ void castings_that_only_conduct(const cases::CaseSpec& spec, const CaseMeasures&
   }
 }
 
-/// Sand gives way to pressures that dies stand; a riser under pressure has less than a die has.
+/// Sand gives way to pressures that dies withstand; a riser under pressure has less than a die has.
 void pressed_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                   Findings& findings) {
   if (!spec.has_mechanics()) return;
@@ -282,7 +282,7 @@ void pressed_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const C
          fmt::format("'{}' presses '{}' with {:.3g} MPa, and its mould conducts as sand does", c.name,
                      spec.bodies[static_cast<std::size_t>(body)].name, 1e-6 * pressure),
          on_riser ? "risers under gas have 0.02 to 0.5 MPa; is the unit of the pressure right?"
-                  : "sand stands 0.1 to 1 MPa; is the unit of the pressure right?"});
+                  : "sand withstands 0.1 to 1 MPa; is the unit of the pressure right?"});
   }
 }
 
@@ -317,8 +317,7 @@ FindingFamily findings_risers() {
           {Topic::pour, "a riser that stands apart",
            "it shares no node, and has no contact, with another body that is poured, where a casting is"},
           {Topic::pour, "risers larger than castings",
-           fmt::format("{} times as large as all that is poured beside them: groups are swapped",
-                       number(k_large))},
+           fmt::format("{} times as large as all else that is poured: groups are swapped", number(k_large))},
           {Topic::pour, "a riser below its casting",
            "its top is below the middle of every casting with which it shares nodes, as gravity acts; where "
            "`criteria.feeders` does not name it"},
@@ -332,7 +331,7 @@ FindingFamily findings_risers() {
                        k_hottest_sand - k_zero_celsius)},
           {Topic::pour, "a mould, core or chill in K",
            "it starts at 373, 473 or 573 °C (or .15 more): 100, 200 or 300 °C in kelvins"},
-          {Topic::pour, "melt that only conducts beside melt that deforms", "they share nodes"},
+          {Topic::pour, "melt that only conducts next to melt that deforms", "they share nodes"},
           {Topic::mechanics, "a pressure of a die on melt in sand",
            fmt::format(
                "above {} MPa, on a riser above {} MPa, where a body in contact conducts less than {} W/m/K",

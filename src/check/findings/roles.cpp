@@ -123,10 +123,10 @@ void strong_films(const cases::CaseSpec& spec, const setup::Assembly& a, const C
     // Sand cannot give off what such a film takes, since its own resistance is far larger.
     if (!poured && h > k_on_sand && a.materials[b].conductivity.value(a.start[b].low) < k_sand)
       findings.push_back({false, c.where, what + ", which conducts as sand does",
-                          "sand stands in air: 5 to 50 W/m2/K; water cools metal"});
+                          "sand is in air: 5 to 50 W/m2/K; water cools metal"});
     if (poured && h > k_on_riser && cases::role_of(spec.bodies[b], a.materials[b]) == cases::Role::riser)
       findings.push_back({false, c.where, what + ", which is to freeze last",
-                          "risers stand in air, 5 to 50 W/m2/K, or under a cover"});
+                          "risers are in air, 5 to 50 W/m2/K, or under a cover"});
   }
 }
 

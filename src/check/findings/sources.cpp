@@ -1,4 +1,4 @@
-/// Findings of sources that travel: those beside the metal, those that are still on when a run ends, and
+/// Findings of sources that travel: those next to the metal, those that are still on when a run ends, and
 /// steps in which they move too far.
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ void misses(const cases::SourceSpec& s, const TravelPath& path, const Box& box, 
          fmt::format("the source '{}' is on at t = {:g} s in ({:.6g}, {:.6g}, {:.6g}) m, {:.3g} m "
                      "from the box of what it heats: it misses",
                      s.name, p.time, p.x[0], p.x[1], p.x[2], away),
-         "a path on the metal, in its unit of length, or `on` = 0 beside it"});
+         "a path on the metal, in its unit of length, or `on` = 0 next to it"});
     return;
   }
 }

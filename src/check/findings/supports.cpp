@@ -374,8 +374,8 @@ FindingFamily findings_supports() {
                    {Topic::mechanics, "nothing holds a body against its weight",
                     "neither a support nor a normal or the friction of a contact acts along gravity"},
                    {Topic::mechanics, "gravity takes a body off what it lies on",
-                    "no surface in contact lies below it, nor beside it with friction, and neither a support "
-                    "along gravity nor a load acts"}}};
+                    "no surface in contact lies below it, nor next to it with friction, and neither a "
+                    "support along gravity nor a load acts"}}};
 }
 
 }  // namespace solidus::check

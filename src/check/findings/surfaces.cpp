@@ -29,7 +29,7 @@ bool lies_on(const cases::ContactSpec& contact, const std::string& group) {
   return std::find(sides.begin(), sides.end(), group) != sides.end();
 }
 
-/// A surface in contact gives its heat to its partner. Films beside contacts: findings/interface.cpp.
+/// A surface in contact gives its heat to its partner. Films in addition to contacts: findings/interface.cpp.
 void heat_beside_contacts(const cases::CaseSpec& spec, Findings& findings) {
   for (const cases::ThermalConditionSpec& c : spec.thermal_conditions)
     for (const cases::ContactSpec& contact : spec.contacts) {
@@ -94,7 +94,7 @@ void films_in_one_place(const cases::CaseSpec& spec, const mesh::Mesh& mesh, Fin
     const double all = parallel::global_sum(static_cast<double>(faces.size()));
     for (std::size_t k = 0; k < i; ++k) {
       const double one = strength(*films[i]), other = strength(*films[k]);
-      // Weak films beside strong ones are part of how a mould is cooled.
+      // Weak films along with strong ones are part of how a mould is cooled.
       if (films[i]->group == films[k]->group || !share_a_stage(films[i]->stages, films[k]->stages) ||
           std::min(one, other) < k_least_ratio_of_films * std::max(one, other))
         continue;
@@ -275,7 +275,7 @@ FindingFamily findings_surfaces() {
            fmt::format("of one number each, the weaker one at least {} of the other",
                        percent(k_least_ratio_of_films))},
           {Topic::conditions, "a temperature, radiation or flux on a surface in contact", "of one number"},
-          {Topic::conditions, "a held temperature beside another condition",
+          {Topic::conditions, "a held temperature with another condition",
            "on the same surface, at the same time"},
           {Topic::conditions, "a body that is held at one temperature", "all of it"},
           {Topic::mechanics, "a pressure that pulls; a pressure on a surface in contact", "of one number"},

@@ -159,7 +159,7 @@ std::vector<std::optional<FrictionResponse>> HeatTerm::keep_slip(std::span<const
   for (Index p = 0; p < partners_.n_points(); ++p) {
     HeatPoint& point = points_[at(p)];
     // A point whose slip was not part of the thermal phase has nothing new: the mechanical phase's
-    // result stands.
+    // result holds.
     if (point.friction == nullptr || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, temperature);
     slip[at(p)] = s.friction;

@@ -18,8 +18,8 @@
 /// Y   [m]       distance of the mean planes of the surfaces
 ///
 /// Misprints of the monograph: the exponent of 3.47 is 0.95/(1 + 0.071 c_2), not 0.71, and in 3.48 the sum
-/// Y + c_g Θ_g stands below the fraction. Both follow from the model (docs/theory/interface.md), which the
-/// tests solve without its fits.
+/// Y + c_g Θ_g is written below the fraction. Both follow from the model (docs/theory/interface.md), which
+/// the tests solve without its fits.
 ///
 /// Validity: the fits of h_S hold for 10⁻⁶ < t_N/H_c < 2·10⁻² to 2 % (c_2 = 0), that of Y for 10⁻⁵ < t_N/H_e
 /// < 2·10⁻² to 2 %. Outside, where root and logarithm of Y end (5.59 t_N >= H_e; t_N = 0), Y goes on: along

@@ -92,7 +92,7 @@ void HeatTransferLaw::prepare_laws() {
   spec_.contact_law =
       spec_.contact_law->ready(fills, tables_of(spec_, &At::contact_conductance), spec_.where);
   if (spec_.slave_resistance && spec_.contact_law->slave_resistance(0, 300))
-    throw InputError(spec_.where, "'slave_resistance' beside a law that has both sides",
+    throw InputError(spec_.where, "'slave_resistance' with a law that has both sides",
                      "one of them: the law says which share lies on the slave's side");
   between_asperities_ = fills && spec_.contact_law->rough();
   spec_.gap_law = spec_.gap_law->beside({spec_.contact_law->without_pressure(), between_asperities_},

@@ -18,10 +18,10 @@
 /// gap holds for the gas between them too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap
 /// begins where that ends: h_o(g + Y(0)).
 ///
-/// Continuity where contact is lost, at t_N = 0 and g = 0: a closed law that conducts beside the gap's
-/// vanishes with the pressure. One that is all of the conductance must meet the law of the gap: a law that
-/// jumps there is refused. Radiation acts in both states (it is small against h when closed), so it does not
-/// jump either.
+/// Continuity where contact is lost, at t_N = 0 and g = 0: a closed law that conducts in parallel with the
+/// gap's vanishes with the pressure. One that is all of the conductance must meet the law of the gap: a law
+/// that jumps there is refused. Radiation acts in both states (it is small against h when closed), so it does
+/// not jump either.
 ///
 /// C¹ with `smooth`: over the pressures 0 to p_t and over the gaps 0 to g_t the law is the cubic that joins
 /// its value at contact, with slope zero, to value and slope at p_t or g_t. So the slope in the gap is

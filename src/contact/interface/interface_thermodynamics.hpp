@@ -35,7 +35,7 @@ double interface_energy(double heat_capacity, double temperature);
 /// Increment of S^p_c by slip, −γ t_N dμ_0/dΘ >= 0 [J/(m² K)] (3.53c); Θ_c times it is D_c,ther Δt (3.59).
 double plastic_entropy_increment(const FrictionLaw& law, double slip, double pressure, double temperature);
 
-/// The bodies beside the interface: slave, master.
+/// The bodies at the interface: slave, master.
 struct InterfaceSides {
   std::array<double, 2> temperature;  ///< Θ_i [K]
   std::array<double, 2> conductance;  ///< h_i [W/(m² K)], >= 0

@@ -31,7 +31,7 @@ class GapLaw : public ConductanceLaw {
  public:
   /// Whether a gap that is counted between the mean planes of rough surfaces means something to the law.
   virtual bool fills_roughness() const = 0;
-  /// The law beside that of the closed interface. Throws InputError where they make none.
+  /// The law together with that of the closed interface. Throws InputError where they make none.
   /// @param tables  of [[contact.heat.at]]
   virtual std::shared_ptr<const GapLaw> beside(const ContactSide& side, std::vector<TableAt> tables,
                                                const SourceLocation& where) const = 0;

@@ -88,7 +88,7 @@ struct SidedContact {
                        "a section [[contact.heat.sides]]"};
     for (std::size_t i = 0; i < sides.size(); ++i) {
       if (!sides[i].temperature && sides.size() > 1)
-        return Objection{"a section [[contact.heat.sides]] beside others has no temperature",
+        return Objection{"a section [[contact.heat.sides]] along with others has no temperature",
                          "a temperature in each, from cold to hot"};
       if (i > 0 && !(*sides[i].temperature > *sides[i - 1].temperature))
         return Objection{"the temperatures of [[contact.heat.sides]] do not increase", "from cold to hot"};

@@ -48,7 +48,7 @@ class ContactGeometry {
   Index n_points() const { return kinematics_->n_points(); }
   /// The kinematics of the points in the configuration of the last at().
   const ContactKinematics& kinematics() const { return *kinematics_; }
-  /// The same at a time and a displacement [local node][component] [m], where they stand until the next call.
+  /// The same at a time and a displacement [local node][component] [m], which are kept until the next call.
   /// Local.
   const ContactKinematics& at(double time, std::span<const double> displacement,
                               ContactKinematics::Points points = ContactKinematics::Points::all) const {

@@ -101,8 +101,8 @@ class Builder {
 
   // Two bodies that end in one plane face each other up to it. Their facets do not where their surfaces are
   // curved: the normal of a facet leans by up to the angle by which the surface turns along it, and what lies
-  // beside the end of the slave looks past that of the master, by the gap times this angle. A face that lacks
-  // no more than such a strip along its edges stands for all of its area.
+  // next to the end of the slave looks past that of the master, by the gap times this angle. A face that
+  // lacks no more than such a strip along its edges stands for all of its area.
   void complete(Index f, const Face& face) {
     double found = 0, moment = 0;
     for (const PairedPoint& point : found_) {

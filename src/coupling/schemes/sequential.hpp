@@ -38,7 +38,7 @@ struct SequentialScheme {
                        "order = \"heat_first\", or no gap_tolerance"};
     if (c.slides_in_heat && order_in(c) == PhaseOrder::heat_first)
       return Objection{
-          "thermal_return_mapping with heat first: slip would be found anew where no heat flows, at the "
+          "thermal_return_mapping with heat first: slip would be found again where no heat flows, at the "
           "temperature of an interface that keeps the heat of its friction",
           "order = \"mechanics_first\", thermal_return_mapping = false, or a scheme whose fields agree"};
     return std::nullopt;

@@ -179,7 +179,7 @@ class Conduction final : public ConductionBlock {
   }
 
   mesh::BlockGeometry geometry_;
-  std::unordered_map<Index, Loss> losses_;  ///< of batches beside edges; zero at first
+  std::unordered_map<Index, Loss> losses_;  ///< of batches next to edges; zero at first
   const linear::BlockMatrix* matrix_ = nullptr;
   mutable std::optional<linear::LaneSlots> slots_;  ///< from the first tangent on
 };

@@ -21,7 +21,7 @@ namespace solidus::heat {
 class ConductionElements {
  public:
   /// @param closed         quads and hexes are integrated at their nodes
-  /// @param correct_edges  whether conduction beside re-entrant edges is corrected (edge_conduction.hpp)
+  /// @param correct_edges  whether conduction next to re-entrant edges is corrected (edge_conduction.hpp)
   /// @param pattern_stays  the pattern of the matrix changes only where a body leaves: then the geometry of
   ///                       the elements, 183 bytes a node of tetrahedra, is not kept by add_unit()
   ConductionElements(const mesh::Mesh& mesh, AnalysisKind kind, bool closed, bool correct_edges,

@@ -1,4 +1,4 @@
-/// Conduction of linear triangles and tetrahedra beside re-entrant edges (mesh/making/reentrant_edges.hpp).
+/// Conduction of linear triangles and tetrahedra at re-entrant edges (mesh/making/reentrant_edges.hpp).
 ///
 /// Around an edge where a body fills the angle ω > π a temperature goes as
 ///

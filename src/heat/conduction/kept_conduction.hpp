@@ -3,7 +3,7 @@
 ///   K_ij = Σ_m κ_m ∫∇N_i·∇N_j dV,   r_i = Σ_j K_ij (u_j − u_i)/κ, since Σ_j K_ij = 0              [W]
 ///
 /// It is assembled when it is first needed. It stays in the matrix of the heat system, but for the diagonal,
-/// where other terms have no entries beside that: 8 bytes an entry less than a copy.
+/// where other terms have no entries besides that: 8 bytes an entry less than a copy.
 #pragma once
 
 #include <functional>
@@ -39,13 +39,13 @@ class KeptConduction {
   ConductionLimiter* limiter() { return limiter_.get(); }
   /// Assembles conduction unless it is kept. Collective.
   void keep();
-  /// Copies conduction out of the matrix, which gets further terms beside its diagonal.
+  /// Copies conduction out of the matrix, which gets further terms off its diagonal.
   void keep_apart();
 
   /// Conduction without its limits, [local node] [W], valid until release_work(); may be added to. A uniform
   /// temperature gives no flow to the last bit, and what one node of a pair gives the other one gets.
   std::span<double> flow(std::span<const double> temperature);
-  /// Assembles the matrix anew where it keeps conduction: the diagonal alone. Returns false, and does
+  /// Assembles the matrix again where it keeps conduction: the diagonal alone. Returns false, and does
   /// nothing, where it does not.
   /// @param add_others  adds the derivatives of the other terms by temperature to the matrix
   /// @param slopes      c of nodal_potential.hpp, [local node]

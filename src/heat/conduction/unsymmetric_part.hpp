@@ -18,7 +18,7 @@ class UnsymmetricPart {
   void clear() { entries_.clear(); }
   /// Of owned rows.
   const std::vector<Entry>& entries() const { return entries_; }
-  /// Notes by how much the derivative differs from an entry beside the diagonal and, where the matrix keeps
+  /// Notes by how much the derivative differs from an entry off the diagonal and, where the matrix keeps
   /// half of itself, from its mirror image.
   /// @param exact, mirrored  the derivatives there
   /// @param n_owned          nodes of this process

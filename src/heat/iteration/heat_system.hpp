@@ -24,7 +24,7 @@ namespace solidus::heat {
 class HeatSystem {
  public:
   /// @param storage        of the matrix: half of it where no tangent that is added is unsymmetric
-  /// @param correct_edges  whether conduction beside re-entrant edges is corrected (edge_conduction.hpp)
+  /// @param correct_edges  whether conduction next to re-entrant edges is corrected (edge_conduction.hpp)
   /// Throws InputError for a condition that names no group of the mesh, std::invalid_argument for absent
   /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
@@ -63,7 +63,7 @@ class HeatSystem {
   ///   conduction   at nodes that materials of different k(Θ)/κ share. With g = (k_m/κ_m)/c, which is one at
   ///                all other nodes, κ_m K_ij √(g_i g_j) stands for κ_m K_ij g_j, the diagonal being exact;
   ///   contributions and surfaces   between nodes of different c = dv/dΘ. With S = ∂r/∂Θ of those,
-  ///                c^-1/2 S c^-1/2 stands for S c^-1.
+  ///                c^-1/2 S c^-1/2 replaces S c^-1.
   /// @param slopes   c, [local node], ghosts up to date
   /// @param further  adds to S; may be empty
   /// @param shared   exact is for iterations that make use of HeatParts::unsymmetric. Without it Newton's

@@ -104,7 +104,7 @@ class TruncatedNewton {
   void sweep();
   void follow_other_processes();
   double relax(std::size_t i, double residual);
-  /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
+  /// @param chords  slopes that replace those of the tangents, [owned node]; empty: none
   linear::LinearReport correct(double forcing, std::span<const float> chords = {});
   int refine(std::span<const char> held, double forcing);
   void multiply_exactly(std::span<double> step, std::span<double> product, std::span<const char> held);

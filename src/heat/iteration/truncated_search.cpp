@@ -10,7 +10,7 @@ namespace solidus::heat {
 
 namespace {
 
-constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
+constexpr double k_accept_rise = 0.5;   ///< the full step is kept if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
 constexpr int k_search_trials = 20;
 

@@ -6,7 +6,7 @@
 ///
 /// No load is larger than it ever is in the step, and for smooth loads the order stays two: the sum is exact,
 /// and each is the load of its stage to O(Δt). Where the second stage is one of backward Euler over (1 − γ)
-/// Δt, the first counts γ Δt only; what it has then taken from its part too little stands in the second.
+/// Δt, the first counts γ Δt only; what it has then taken from its part too little is in the second.
 #pragma once
 
 #include "material/time_integration.hpp"

@@ -122,7 +122,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
       }
     if (!closed) first_cell += patch.n_faces;
   }
-  // The nodes at which the law is taken beside the points of integration.
+  // The nodes at which the law is taken in addition to the points of integration.
   point_of_node_.assign(mesh.x.size(), 0);
   const auto place = [&](Index node) {
     std::size_t& point = point_of_node_[static_cast<std::size_t>(node)];
@@ -192,7 +192,7 @@ std::pair<double, double> SurfaceHeat::flux_range() const {
 
 void SurfaceHeat::add_corners(const mesh::ElementBlock& faces, const mesh::FaceGeometry& g) {
   // At the corners of quadratic quadrilaterals weights are negative: their part of the flow is an exchange
-  // with the middles beside them, which the limiter may cut.
+  // with the middles next to them, which the limiter may cut.
   const int corners = g.n_nodes / 2;
   for (Index face = 0; face < g.n_faces; ++face) {
     const Index* nodes = faces.element(face);

@@ -12,7 +12,7 @@
 ///
 /// a the half width, b the depth, c_k the lengths in front and behind, r the radius. The integral of each
 /// over the half space below the point (over its plane for the gaussian) is one; where metal is thinner or
-/// the point lies beside it less is delivered. On a plane face that the beam meets at a slant the gaussian
+/// the point lies next to it less is delivered. On a plane face that the beam meets at a slant the gaussian
 /// delivers more by 1/cos of its angle.
 #pragma once
 

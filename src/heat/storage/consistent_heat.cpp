@@ -1,4 +1,4 @@
-/// Point storage minus nodal storage: the difference is what the open rule adds beside bodies that keep
+/// Point storage minus nodal storage: the difference is what the open rule adds next to bodies that keep
 /// their heat at the nodes.
 #include "heat/storage/consistent_heat.hpp"
 

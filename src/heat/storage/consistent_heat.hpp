@@ -1,4 +1,4 @@
-/// The open rule beside bodies that keep their heat at the nodes (monograph 6.3).
+/// The open rule next to bodies that keep their heat at the nodes (monograph 6.3).
 ///
 /// A Gauss point has no heat content of its own, so where a material has an isothermal change nothing there
 /// would tell how much is solid. Bodies of such a material store their heat at the nodes under the open rule

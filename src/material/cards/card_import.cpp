@@ -84,8 +84,8 @@ void refuse_jumps(const ImportColumns& c, const Range& range) {
   }
 }
 
-/// The specific heat at a row from the intervals beside it, of [first, last): their mean, and at most one and
-/// a half times the smaller, so that the middle of an interval stays above zero.
+/// The specific heat at a row from the intervals next to it, of [first, last): their mean, and at most one
+/// and a half times the smaller, so that the middle of an interval stays above zero.
 double nodal_heat(const ImportColumns& c, std::size_t row, std::size_t first, std::size_t last) {
   if (row == first) return slope(c, row);
   if (row == last) return slope(c, row - 1);
@@ -94,7 +94,7 @@ double nodal_heat(const ImportColumns& c, std::size_t row, std::size_t first, st
 }
 
 /// Points of the specific heat on the rows [first, last]: lines whose integral over each interval is its ΔH.
-/// @param beside  the value at the row `melting`, the end beside the freezing range
+/// @param beside  the value at the row `melting`, the end next to the freezing range
 void add_sensible(const ImportColumns& c, std::size_t first, std::size_t last, std::size_t melting,
                   double beside, Points& points) {
   const auto at = [&](std::size_t i) { return i == melting ? beside : nodal_heat(c, i, first, last); };
@@ -324,7 +324,7 @@ class Importer {
       throw InputError(
           c_.place(range_.solidus),
           fmt::format("between {:.6g} and {:.6g} K the enthalpy rises by less than the specific heat of "
-                      "the solid and the melt beside",
+                      "the solid and the melt next to it",
                       c_.temperature[range_.solidus], c_.temperature[range_.liquidus]),
           "an enthalpy with the heat of freezing");
     Points points;
@@ -349,7 +349,7 @@ class Importer {
     constexpr double k_nothing = 1e-9;  // [J/kg]
     if (heat.rest > k_nothing)
       changes.items().push_back(
-          phase_change("heat of freezing beside the solid fraction", false, heat.rest, 0,
+          phase_change("heat of freezing in addition to the solid fraction", false, heat.rest, 0,
                        fraction_points(c_, range_, heat.rest_share, range_.solidus),
                        source("enthalpy") + ": what the solid fraction times one latent heat does not give"));
     card_.remarks.push_back(

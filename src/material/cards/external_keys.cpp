@@ -34,7 +34,7 @@ Section<ExternalData> external_keys() {
   s.key("external_state_variables", &E::external_state_variables)
       .initially(Value::list({}))
       .when("interface", {"mfront"})
-      .doc("Values of its external state variables beside the temperature, which do not change.");
+      .doc("Values of its external state variables besides the temperature, which do not change.");
   s.key("initial_state", &E::initial_state)
       .initially(Value::list({}))
       .doc("Its state variables before anything has happened; empty: all zero.");
@@ -72,7 +72,7 @@ void add_external(Material& material, ExternalData data) {
   const std::string of = " of '" + material.name + "'";
   if (!material.mechanical())
     throw InputError(
-        data.where, "the law from outside" + of + " has no elastic properties beside it",
+        data.where, "the law from outside" + of + " has no elastic properties in addition",
         "young_modulus, poisson_ratio and expansion: those of the law, for thermal strain, heat of "
         "deformation and solvers");
   if (material.flow)
@@ -91,7 +91,7 @@ void add_external(Material& material, ExternalData data) {
   data.coherency_fraction = material.casting.coherency_fraction;
   if (data.behaviour.empty()) data.behaviour = "umat_";
   if (umat && !data.state_variables)
-    throw InputError(data.where, "nobody but its author knows how many state variables a UMAT has",
+    throw InputError(data.where, "only its author knows how many state variables a UMAT has",
                      "state_variables, NSTATV; perhaps 0");
   if (!umat && data.dissipation == ExternalDissipation::rpl)
     throw InputError(data.where, "dissipation = \"rpl\" is for UMATs", "\"automatic\", \"share\" or \"law\"");

@@ -49,7 +49,7 @@ double heat_in_capacity(const ImportColumns& c, std::size_t solidus, std::size_t
   const auto& t = c.temperature;
   const auto& heat = c.of("specific_heat");
   const std::size_t last = t.size() - 1;
-  // The table must have a row beside the range, which tells what a phase without latent heat has.
+  // The table must have a row next to the range, which tells what a phase without latent heat has.
   if (solidus == 0 && liquidus == last) return 0;
   // A plain capacity would go straight over the range; what is far above that is heat of freezing.
   const double below = heat[solidus > 0 ? solidus - 1 : liquidus + 1],

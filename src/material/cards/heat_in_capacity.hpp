@@ -9,7 +9,7 @@
 namespace solidus::material {
 
 /// The heat of freezing that the column `specific_heat` holds: its integral over the freezing range above a
-/// line between the rows beside the range [J/kg]; 0 where it is as much as an alloy without it may have: up
+/// line between the rows next to the range [J/kg]; 0 where it is as much as an alloy without it may have: up
 /// to half as much again, or 10 kJ/kg.
 /// @param solidus, liquidus  rows at the ends of the freezing range
 double heat_in_capacity(const ImportColumns& c, std::size_t solidus, std::size_t liquidus);

@@ -19,7 +19,7 @@ Section<LiquidusSystem::Solute> solute_keys() {
 
 Section<LiquidusSystem::Slope> slope_keys() {
   using S = LiquidusSystem::Slope;
-  Section<S> s("other", "Another solute in the melt beside two solids.");
+  Section<S> s("other", "Another solute in the melt next to two solids.");
   s.key("name", &S::name).doc("Its symbol.");
   s.quantity("slope", &S::slope, "K")
       .difference()
@@ -29,7 +29,7 @@ Section<LiquidusSystem::Slope> slope_keys() {
       .range(0, 1)
       .initially(0.0)
       .doc(
-          "Partition coefficient k between the primary solid and the melt beside two solids, for Scheil's "
+          "Partition coefficient k between the primary solid and the melt next to two solids, for Scheil's "
           "equation; 0: that of the solute.");
   s.place(&S::where);
   return s;

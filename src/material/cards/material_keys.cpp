@@ -154,7 +154,7 @@ Section<Graphite> graphite_keys() {
   s.choice("rule", &Graphite::rule,
            {{"lever", Graphite::Rule::lever, "all carbon beyond what austenite of the eutectic holds"},
             {"scheil", Graphite::Rule::scheil,
-             "that of the eutectic alone, of which less is left beside primary austenite that keeps its "
+             "that of the eutectic alone, of which less is left next to primary austenite that keeps its "
              "carbon"}})
       .initially("lever")
       .doc("How much graphite there is when the last melt freezes.");

@@ -61,7 +61,7 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-/// Takes powers of ten of six, whatever their sign, and signs of multiplication beside them out of the unit
+/// Takes powers of ten of six, whatever their sign, and signs of multiplication next to them out of the unit
 /// of an expansion. Returns whether there was one.
 bool take_millionths(std::string& unit) {
   for (const char* power : {"10^-6", "10^6", "10e-6", "10E-6", "1e-6", "1E-6", "1.0e-6", "1e6", "1E6",
@@ -233,7 +233,7 @@ bool take_mole(std::string& unit) {
   for (const char* mole : {"/mole", "/mol", " mol-1", " mol^-1", "*mol-1", ".mol-1", " mol", "*mol", ".mol"})
     if (const auto at = unit.find(mole); at != std::string::npos) {
       unit.erase(at, std::char_traits<char>::length(mole));
-      // What stood beside it below the slash is still below.
+      // What stood next to it below the slash is still below.
       if (at < unit.size() && std::string_view("-.* ").find(unit[at]) != std::string_view::npos &&
           at + 1 < unit.size() && is_letter(unit[at + 1]) && mole[0] == '/')
         unit[at] = '/';

@@ -53,8 +53,8 @@ class Isentropic {
   struct Response : Viscoplastic::Response<T> {
     T temperature{};     ///< Θ̄ [K]
     T entropy_defect{};  ///< S^E − S^E_n that the iteration or the end of the range left [J/(m³ K)]
-    /// The adiabatic part of the tangent: thermal_factor thermal_left ⊗ thermal_right, beside the members of
-    /// the base. thermal_left = ∂σ/∂Θ, and thermal_right = thermal_left where the law is symmetric.
+    /// The adiabatic part of the tangent: thermal_factor thermal_left ⊗ thermal_right, in addition to the
+    /// members of the base. thermal_left = ∂σ/∂Θ, and thermal_right = thermal_left for a symmetric law.
     Sym<T> thermal_left, thermal_right;
     T thermal_factor{};  ///< 1/F' [m³ K²/J], zero at the end of the range
   };

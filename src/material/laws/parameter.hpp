@@ -33,7 +33,7 @@ constexpr LawParameter left_out_as_zero(LawParameter parameter) {
   return parameter;
 }
 
-/// Most parameters that a law of isotropic hardening, of kinematic hardening beside its modulus and of rate
+/// Most parameters that a law of isotropic hardening, of kinematic hardening besides its modulus and of rate
 /// dependence may have: as many numbers are kept at every point.
 inline constexpr std::size_t k_hardening_parameters = 4, k_kinematic_parameters = 2, k_rate_parameters = 3;
 /// The same of a model of the liquid, whose numbers do not depend on temperature.

@@ -81,7 +81,7 @@ std::shared_ptr<const ExternalLaw> load_external_law(const Material& material, c
   if (!external_laws_are_trusted())
     throw InputError(
         data.where,
-        fmt::format("'{}' has its law from '{}', and what a shared object does nobody can check: "
+        fmt::format("'{}' has its law from '{}', and what a shared object does cannot be checked: "
                     "loading it is as if you ran a program of its author",
                     material.name, data.library),
         "--trust-laws, where you trust it");

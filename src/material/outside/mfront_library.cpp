@@ -253,7 +253,7 @@ class MfrontLibrary final : public ExternalLibrary {
       names.erase(names.begin());
     }
     if (names.size() != data.external_state_variables.size())
-      s.refuse(fmt::format("has {} external state variables beside the temperature{}, [external] gives {}",
+      s.refuse(fmt::format("has {} external state variables besides the temperature{}, [external] gives {}",
                            names.size(), list(names), data.external_state_variables.size()),
                "external_state_variables, in this order");
   }

@@ -6,7 +6,7 @@
 /// derivatives h_ε, h_Θ, σ_Θ of coupled_points.hpp at ε̂, h_v = ⅓ tr h_ε and e_v,Θ = e^θ_Θ − p̄ k_Θ/k²
 ///
 ///   K_uΘ = ∫ Bᵀ dev σ_Θ N dV     K_Θu = ∫ M (dev h_ε)ᵀ B dV
-/// and −ψ ζ/Δt e^θ_Θ beside σ_Θ where melt flows (compaction.hpp);
+/// and −ψ ζ/Δt e^θ_Θ in addition to σ_Θ where melt flows (compaction.hpp);
 ///
 ///   K_pΘ = −∫ N e_v,Θ N dV       K_Θp = ∫ M h_v/k N dV         K_ΘΘ += ∫ M (h_Θ + h_v e_v,Θ) N dV
 ///

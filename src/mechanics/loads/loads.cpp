@@ -340,7 +340,7 @@ void Loads::prescribe_rate(double time, std::span<double> velocity) const {
       continue;
     }
     // Of a formula the parabola through three times from this one on, so close that rounding and curvature
-    // do not matter beside each other.
+    // do not matter compared with each other.
     constexpr double k_apart = 1e-6;  // [s]
     const std::vector<double> now = support.values(time), next = support.values(time + k_apart),
                               last = support.values(time + 2 * k_apart);

@@ -1,6 +1,6 @@
-/// The nodal pressure of mixed elements (mixed_kernel.hpp): a second unknown of Newton's iteration beside the
-/// displacement. This class holds the nodes that have a pressure, the unit in which it is counted, and the
-/// part of its stabilisation that couples neighbours of neighbours.
+/// The nodal pressure of mixed elements (mixed_kernel.hpp): a second unknown of Newton's iteration along with
+/// the displacement. This class holds the nodes that have a pressure, the unit in which it is counted, and
+/// the part of its stabilisation that couples neighbours of neighbours.
 ///
 ///   r_p(u, p) = ∫ N (div u − e_v(dev ε, p)) dV − S p = 0
 ///

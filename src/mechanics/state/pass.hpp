@@ -1,4 +1,4 @@
-/// One pass of the mechanical phase: what it gets beside the state and its conditions, and what it returns.
+/// One pass of the mechanical phase: what it gets besides the state and its conditions, and what it returns.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ enum class Mapping {
 /// Work and heat of a solved step over all processes [J] (axisymmetric: of the whole revolution; plane
 /// strain: per metre of thickness). Forces are those at t_{n+1}, times the displacement increment, so that by
 /// equilibrium internal_work = external_work + support_work + the work of contributions, to the residual.
-/// With inertia they are means over the step (Motion::work_share), and kinetic + numerical stand on the left.
+/// With inertia they are means over the step (Motion::work_share), and kinetic + numerical are on the left.
 struct MechanicalWork {
   double external_work = 0;        ///< of pressures, tractions and gravity
   double support_work = 0;         ///< of the reactions at prescribed displacements

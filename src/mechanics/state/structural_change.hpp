@@ -1,4 +1,4 @@
-/// In which form the heat of deformation stands in the heat balance (structural_heat.hpp), and what a step
+/// In which form the heat of deformation enters the heat balance (structural_heat.hpp), and what a step
 /// changes.
 #pragma once
 

@@ -50,9 +50,9 @@ bool keeps_volume(const TriangleSurface& skin, const TriangleSurface& facets) {
   return std::abs(std::abs(PMP::volume(skin)) - wanted) <= k_skin_tolerance * wanted;
 }
 
-/// A new skin of one shell. Triangles that are long beside a wall cut through it, or off a part of its round:
-/// where a new skin crosses itself or loses volume, smaller ones are tried, and in the end the wrap as it is,
-/// which never crosses itself.
+/// A new skin of one shell. Triangles that are long for a thin wall cut through it, or off a part of its
+/// round: where a new skin crosses itself or loses volume, smaller ones are tried, and in the end the wrap as
+/// it is, which never crosses itself.
 /// @param size  of edges, in units of the file
 TriangleSurface new_skin(const TriangleSurface& facets, const SkinRemeshing& how, double size) {
   constexpr std::array<double, 3> k_shares{1, 0.5, 0.25};

@@ -15,8 +15,8 @@ using TriangleSurface = CGAL::Surface_mesh<Kernel::Point_3>;
 /// The triangles of a shell; corners in which parts of it meet in a point alone are one for each part.
 TriangleSurface surface_of(const ClosedShells& all, const Shell& shell);
 
-/// Appends the connected parts of a closed surface as shells with a name; nothing is said of what lies inside
-/// of what (nest_shells()).
+/// Appends the connected parts of a closed surface as shells with a name; nothing is known of what lies
+/// inside of what (nest_shells()).
 void append_shells(const TriangleSurface& surface, const std::string& name, ClosedShells& all);
 
 /// "(12.3, 4, 5)": a place for messages.

@@ -205,7 +205,7 @@ void Groups::add_rest() {
     }
     if (thin > 0)
       mesh_.notes.push_back(std::to_string(thin) +
-                            " shells of no set lie beside the solids of the file and are left out");
+                            " shells of no set lie next to the solids of the file and are left out");
     add_group(s == 0 || scopes_[s].name.empty() ? "body_1" : scopes_[s].name, std::move(rest));
   }
 }

@@ -94,7 +94,7 @@ void AbaqusReader::include() {
   read(beside(keyword_.required("INPUT")), false);
 }
 
-/// Lines of data may stand in a file of their own.
+/// Lines of data may be in a file of their own.
 void AbaqusReader::read_input() {
   if (keyword_.has("INPUT")) read(beside(keyword_.required("INPUT")), true);
 }
@@ -144,7 +144,7 @@ void AbaqusReader::begin_set() {
 }
 
 void AbaqusReader::begin_scope() {
-  if (parts_.open || instance_ != 0) fail("*" + keyword_.name + " stands inside of another part or instance");
+  if (parts_.open || instance_ != 0) fail("*" + keyword_.name + " is inside of another part or instance");
   // A part is kept until instances ask for it; an instance begins as a copy of its part, which is moved at
   // its end.
   system_ = {};

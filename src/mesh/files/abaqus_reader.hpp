@@ -41,7 +41,7 @@ class AbaqusReader {
     throw InputError(at_, what, allowed);
   }
   AbaqusScope& scope() { return parts_.open ? *parts_.open : scopes_[instance_]; }
-  /// The file beside the one that names it.
+  /// The file next to the one that names it.
   std::string beside(const std::string& name) const {
     return (std::filesystem::path(at_.file).parent_path() / name).string();
   }

@@ -1,4 +1,4 @@
-/// The file's own unit wins; a unit of the user must agree with it, and stands in where the file has none.
+/// The file's own unit wins; a unit of the user must agree with it, and is taken where the file has none.
 #include "mesh/files/file_unit.hpp"
 
 #include <fmt/format.h>

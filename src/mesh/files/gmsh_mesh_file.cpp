@@ -87,7 +87,7 @@ class Bytes {
   }
   void expect(std::string_view name) {
     if (const std::string_view found = word(); found != name)
-      fail("'" + std::string(found.substr(0, 40)) + "' stands where '" + std::string(name) + "' belongs");
+      fail("'" + std::string(found.substr(0, 40)) + "' is where '" + std::string(name) + "' belongs");
     line();
   }
   /// Goes behind the line that ends a section which is not read.
@@ -209,7 +209,7 @@ void Reader::read_entities() {
 }
 
 void Reader::add_node(std::int64_t tag, const Point& x) {
-  if (!node_tags_.insert(tag).second) file_.fail("node " + std::to_string(tag) + " stands there twice");
+  if (!node_tags_.insert(tag).second) file_.fail("node " + std::to_string(tag) + " is there twice");
   nodes_.emplace_back(tag, x);
 }
 
@@ -304,7 +304,7 @@ void Reader::read_elements_4() {
     const std::size_t n = file_.count(file_.number<std::int64_t>(), 4);
     const GmshElement& element = element_type(type);
     if (element.dimension != dimension)
-      file_.fail("elements of the type '" + element.name + "' stand in an entity of dimension " +
+      file_.fail("elements of the type '" + element.name + "' are in an entity of dimension " +
                  std::to_string(dimension));
     // Tag and nodes of each element, in binary as in text.
     for (std::size_t i = 0; i < n; ++i) {
@@ -323,7 +323,7 @@ std::optional<RawMesh> Reader::read() {
   // this reader does not know is left to Gmsh.
   while (!file_.at_end()) {
     const std::string word(file_.word());
-    if (!word.starts_with('$')) file_.fail("'" + word.substr(0, 40) + "' stands where a section begins");
+    if (!word.starts_with('$')) file_.fail("'" + word.substr(0, 40) + "' is where a section begins");
     const std::string section = word.substr(1);
     // The bytes of a binary section begin behind its line.
     if (section != "MeshFormat") file_.line();

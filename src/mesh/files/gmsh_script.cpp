@@ -1,4 +1,4 @@
-/// The tokens of a script are passed once, and each word is judged by what stands around it; a file that is
+/// The tokens of a script are passed once, and each word is judged by what is around it; a file that is
 /// included is checked in the same way.
 #include "mesh/files/gmsh_script.hpp"
 
@@ -178,7 +178,7 @@ void refuse_options_file(const std::string& path) {
   const std::string options = path + ".opt";
   if (fs::symlink_status(options, error).type() != fs::file_type::not_found)
     throw InputError(
-        {options}, "Gmsh would run this file as a script with every mesh that it stands beside",
+        {options}, "Gmsh would run this file as a script with every mesh that it lies next to",
         "another name or place for it; --trust-geo runs a script that you trust as you trust a program");
 }
 

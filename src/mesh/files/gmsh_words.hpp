@@ -11,7 +11,7 @@ const char* forbidden_reason(std::string_view word);
 /// Whether Gmsh's grammar has the word, and it can do nothing but make geometry, sizes, groups and numbers.
 bool is_harmless_keyword(std::string_view word);
 /// Whether a word that is no keyword may be before another word, a number or a text: attributes of
-/// constants, laws of transfinite lines, commands that only mesh. What else stands so is a command.
+/// constants, laws of transfinite lines, commands that only mesh. Everything else written so is a command.
 bool may_precede_operand(std::string_view word);
 /// Types of size fields that compute and read nothing.
 bool is_harmless_field(std::string_view type);

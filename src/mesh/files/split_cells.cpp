@@ -201,7 +201,7 @@ void Splitter::spread() {
       if (beside == hexahedra.end()) continue;
       for (const Cell& other : beside->second) {
         if (other.block->shape == Shape::hex20)
-          fail(other, "lies beside wedges, pyramids or split hexahedra, which are of first order",
+          fail(other, "lies next to wedges, pyramids or split hexahedra, which are of first order",
                "a mesh of first order");
         if (split_.insert(other).second) front.push_back(other);
       }

@@ -18,7 +18,7 @@ namespace solidus::mesh {
 /// with one of them by quadrilateral faces: a hexahedron has no diagonal that could match theirs.
 /// Quadrilaterals of surfaces on what is split become triangles, as do those with a repeated corner. Parts of
 /// a cell keep its number in the input. A note of the mesh tells how many there were. Throws InputError for a
-/// cell of no volume or so warped that its parts would overlap, and for hexahedra of second order beside a
+/// cell of no volume or so warped that its parts would overlap, and for hexahedra of second order next to a
 /// cell that is split.
 /// @param path  of the mesh, for messages
 void split_cells(RawMesh& mesh, const std::string& path);

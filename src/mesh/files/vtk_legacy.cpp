@@ -145,7 +145,7 @@ void Reader::skip_metadata() {
 }
 
 std::string Reader::word() {
-  if (!skip_blanks()) fail("the file ends where a word or a number should stand");
+  if (!skip_blanks()) fail("the file ends where a word or a number should be");
   const std::size_t first = at_;
   while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) == 0) ++at_;
   return text_.substr(first, at_ - first);
@@ -235,7 +235,7 @@ void Reader::cells() {
     for (; i < end; ++i) corners_.push_back(all[i]);
     offsets_.push_back(static_cast<double>(corners_.size()));
   }
-  if (offsets_.size() != n) fail(fmt::format("there are {} cells where {} are said", offsets_.size(), n));
+  if (offsets_.size() != n) fail(fmt::format("there are {} cells where {} are declared", offsets_.size(), n));
 }
 
 void Reader::types() {

@@ -93,7 +93,7 @@ std::vector<std::filesystem::path> grid_files(const VtuFile& file, const std::fi
     if (tag != "Piece") continue;
     parts.push_back(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
     if (!seen.insert(std::filesystem::weakly_canonical(parts.back())).second)
-      file.fail(fmt::format("'{}' stands in the list of parts twice", parts.back().string()));
+      file.fail(fmt::format("'{}' is in the list of parts twice", parts.back().string()));
   }
   return parts;
 }

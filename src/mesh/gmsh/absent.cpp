@@ -1,4 +1,4 @@
-// Stands in a build without Gmsh for all that needs it.
+// Replaces, in a build without Gmsh, all that needs it.
 #include <string>
 
 #include "mesh/files/file_format.hpp"

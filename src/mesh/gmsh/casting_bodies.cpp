@@ -211,7 +211,7 @@ class PartMaker {
     // A body without a piece lies within another one.
     for (std::size_t p = 0; p < parts_.size(); ++p)
       if (parts_[p].volumes.empty())
-        refuse("nothing is left of the body '" + parts_[p].name + "' beside the others: they overlap",
+        refuse("nothing is left of the body '" + parts_[p].name + "' next to the others: they overlap",
                p >= n_parts && p < n_parts + added.size()
                    ? "the place of [[mesh.riser]] or [[mesh.chill]] outside of the parts; is the unit of the "
                      "file right?"

@@ -143,7 +143,7 @@ double volume(const std::vector<Point>& x, const Index* tet) {
 }
 
 /// The vertices at one place, of bodies that touch and have nodes of their own. They move together: otherwise
-/// the rim of one body would lie beside that of the other, and contact would find no partner there.
+/// the rim of one body would lie next to that of the other, and contact would find no partner there.
 struct Place {
   Point displacement{};
   std::vector<Index> nodes;

@@ -12,7 +12,7 @@
 
 namespace solidus::mesh {
 
-/// A body that is made beside those of the file.
+/// A body that is made next to those of the file.
 struct AddedBody {
   std::string name;
   int volume = -1;  ///< its number in the CAD kernel

@@ -2,7 +2,7 @@
 /// reader's process, while Gmsh has the geometry open.
 ///
 /// Gmsh meshes such a face in its parameters, which jump at its seam; where other faces touch the face
-/// beside the seam it may find no mesh ("Impossible to mesh periodic surface"). Halves of the face have no
+/// next to the seam it may find no mesh ("Impossible to mesh periodic surface"). Halves of the face have no
 /// seam.
 #pragma once
 

@@ -74,7 +74,7 @@ class LevelCut {
     // face.
     for (std::size_t i = 0; i < mesh_.x.size(); ++i)
       if (!around_[i].empty()) value_[i] = level_(mesh_.x[i]);
-    // The order matters: edges are split while nodes stand where the mesher had them, planes are found in the
+    // The order matters: edges are split while nodes are where the mesher had them, planes are found in the
     // split mesh, and nodes move last, since a moved node changes both.
     split_edges_across();
     find_planes();
@@ -151,7 +151,7 @@ class LevelCut {
       for (const Corners& tet : tets_)
         for (const auto& e : k_edges) {
           const Edge edge = edge_key(tet[e[0]], tet[e[1]]);
-          // Held edges are left alone: a node in one would stand in the face of another group that does not
+          // Held edges are left alone: a node in one would lie in the face of another group that does not
           // have it.
           if (value_[at(edge.first)] * value_[at(edge.second)] <= 0 || held_edges_.contains(edge)) continue;
           const Point &a = mesh_.x[at(edge.first)], &b = mesh_.x[at(edge.second)];

@@ -34,8 +34,8 @@ struct FacetedWay {
 /// All ways, by number; solids are meshed in this order.
 std::span<const SolidWay> solid_ways();
 std::span<const FacetedWay> faceted_ways();
-/// The numbers of all ways to mesh skins, in the order in which they are tried: numbers stand in case files
-/// and stay.
+/// The numbers of all ways to mesh skins, in the order in which they are tried: numbers are written in case
+/// files and stay.
 std::span<const int> faceted_order();
 /// Processor time that Gmsh has to make new skins of facets, in all ways together [s]: beyond it CGAL makes
 /// them.

@@ -12,7 +12,7 @@ namespace solidus::mesh {
 
 namespace {
 
-constexpr double k_far = 1e300;
+constexpr double k_infinite = 1e300;
 
 /// The lower envelope of parabolas in one dimension: squared distances to the nearest zero of a line of
 /// cells, of squared distances across it (P. Felzenszwalb, D. Huttenlocher, "Distance transforms of sampled
@@ -24,21 +24,21 @@ void transform_line(const std::vector<double>& f, std::vector<double>& out) {
   int k = -1;
   const auto value = [&](int i) { return f[static_cast<std::size_t>(i)]; };
   for (int q = 0; q < n; ++q) {
-    if (value(q) >= k_far) continue;
-    double s = -k_far;
+    if (value(q) >= k_infinite) continue;
+    double s = -k_infinite;
     while (k >= 0) {
       const int v = apex[static_cast<std::size_t>(k)];
       s = ((value(q) + double(q) * q) - (value(v) + double(v) * v)) / (2.0 * (q - v));
       if (s > border[static_cast<std::size_t>(k)]) break;
       --k;
     }
-    if (k < 0) s = -k_far;
+    if (k < 0) s = -k_infinite;
     ++k;
     apex[static_cast<std::size_t>(k)] = q;
     border[static_cast<std::size_t>(k)] = s;
-    border[static_cast<std::size_t>(k) + 1] = k_far;
+    border[static_cast<std::size_t>(k) + 1] = k_infinite;
   }
-  out.assign(f.size(), k_far);
+  out.assign(f.size(), k_infinite);
   if (k < 0) return;
   int at = 0;
   for (int q = 0; q < n; ++q) {
@@ -105,7 +105,7 @@ void MetalGrid::fill(const RawMesh& mesh, const std::vector<std::string>& bodies
 
 void MetalGrid::measure_depth() {
   std::vector<double> squared(cube_of_.size());
-  for (std::size_t i = 0; i < squared.size(); ++i) squared[i] = cube_of_[i] < 0 ? 0 : k_far;
+  for (std::size_t i = 0; i < squared.size(); ++i) squared[i] = cube_of_[i] < 0 ? 0 : k_infinite;
   const std::array<std::size_t, 3> stride = {
       static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]), static_cast<std::size_t>(n_[2]), 1};
   std::vector<double> line, out;
@@ -166,7 +166,7 @@ std::size_t MetalGrid::cube_at(const Point& point) const {
     i[d] = std::clamp(static_cast<int>((point[d] - low_[d]) / edge_), 0, n_[d] - 1);
   if (const int cube = cube_of_[cell(i[0], i[1], i[2])]; cube >= 0) return static_cast<std::size_t>(cube);
   std::size_t nearest = 0;
-  double least = k_far;
+  double least = k_infinite;
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
     const Point x = centre(c);
     const double far = std::hypot(x[0] - point[0], x[1] - point[1], x[2] - point[2]);
@@ -203,7 +203,7 @@ std::vector<double> MetalGrid::widest_ways(std::size_t from) const {
 }
 
 WaysInMetal MetalGrid::beginnings(const std::vector<WayStart>& starts) const {
-  WaysInMetal ways{std::vector<double>(cubes_.size(), k_far), std::vector<int>(cubes_.size(), -1)};
+  WaysInMetal ways{std::vector<double>(cubes_.size(), k_infinite), std::vector<int>(cubes_.size(), -1)};
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
     const Point x = centre(c);
     for (std::size_t s = 0; s < starts.size() && ways.from[c] < 0; ++s) {

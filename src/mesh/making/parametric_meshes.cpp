@@ -86,7 +86,7 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
     throw std::invalid_argument("the mould must be at least as high as its bottom and the casting");
   const bool rises = rise > 1e-9 * c.height;
 
-  // Steep temperatures stand at the interface: half the size there.
+  // Temperatures are steep at the interface: half the size there.
   const double fine = 0.5 * c.element_size;
   const GridAxis part_r = graded_axis(0, c.radius, c.element_size, fine);
   const GridAxis part_z = graded_axis(0, c.height, fine, c.element_size);

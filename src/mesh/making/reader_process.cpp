@@ -47,13 +47,13 @@ bool (*give_up)() = nullptr;
 
 constexpr const char* k_same_build = "the solidus-reader of the same build as this program";
 
-/// Beside the program, or where an installation has it. `path` is of the mesh, for the message.
+/// Next to the program, or where an installation has it. `path` is of the mesh, for the message.
 std::string reader_program(const std::string& path) {
   const std::filesystem::path folder = program_path().parent_path();
   for (const std::filesystem::path& place : {folder, folder.parent_path() / "libexec/solidus"})
     if (std::filesystem::exists(place / k_reader)) return (place / k_reader).string();
   throw InputError({path},
-                   fmt::format("the program that reads meshes, '{}', is missing beside '{}'", k_reader,
+                   fmt::format("the program that reads meshes, '{}', is missing next to '{}'", k_reader,
                                program_path().string()),
                    "both in one folder, as they are built, or installed with cmake --install");
 }
@@ -292,7 +292,7 @@ void Reader::ended() {
     throw InputError({source_.path},
                      "the program that read or meshed this file was killed: by the system, where memory ran "
                      "out, or by a user",
-                     "larger elements, or fewer programs beside it");
+                     "larger elements, or fewer programs at the same time");
   if (WIFSIGNALED(*how))
     throw InputError({source_.path},
                      std::string("the reader crashed while it read or meshed this file (") +

@@ -34,7 +34,7 @@ struct ReaderLimits {
 /// @param meshes  what the file holds is meshed again, whatever it is
 ReaderLimits reader_limits(const MeshSource& source, bool meshes = false);
 
-/// The processor time that a reader may use for one way of meshing, beside the limits above.
+/// The processor time that a reader may use for one way of meshing, in addition to the limits above.
 struct TimeOfWay {
   std::string what = {};        ///< the way, for messages
   double processor = 0;         ///< [s] of the processor; 0: no such limit
@@ -47,7 +47,7 @@ class MeshingTooLong : public InputError {
 };
 
 /// Reads a mesh, or with `casting` makes one in the way that its `attempt` says, in a reader
-/// but for read_in_this_process(). Throws InputError, also where there is no reader beside the program, and
+/// but for read_in_this_process(). Throws InputError, also where there is no reader next to the program, and
 /// MeshingTooLong.
 /// @param time   not for read_in_this_process()
 /// @param spent  takes the reader's processor time [s]; may be null

@@ -45,8 +45,8 @@ void leave_out_lower_elements(RawMesh& mesh, const std::vector<char>& used) {
       RawBlock kept{block.shape, {}, {}};
       for (std::size_t e = 0; e < block.nodes.size(); e += n) {
         const Index* nodes = block.nodes.data() + e;
-        // A face needs a body that has it as a face: its nodes alone may all be used while the body beside it
-        // is gone.
+        // A face needs a body that has it as a face: its nodes alone may all be used while the body next to
+        // it is gone.
         const bool stays =
             group.dimension == mesh.dimension - 1
                 ? owners.at(face_key(nodes, vertex_count(block.shape))).body >= 0

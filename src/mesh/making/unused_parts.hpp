@@ -9,7 +9,7 @@
 namespace solidus::mesh {
 
 /// Leaves out elements of surfaces that no body has as a face, elements of lines and points with nodes of no
-/// body, and nodes that are in no body. The others keep their order; those of drawn faces are numbered anew.
+/// body, and nodes that are in no body. The others keep their order; those of drawn faces are numbered again.
 void leave_out_unused(RawMesh& mesh);
 
 /// Leaves out a group of full dimension, and what then belongs to no body.

@@ -1,4 +1,4 @@
-// Stands for read_med.cpp where the MED library is not there.
+// Replaces read_med.cpp where the MED library is not there.
 #include "mesh/med/read_med.hpp"
 #include "system/errors.hpp"
 

@@ -35,7 +35,7 @@ double distance(const Point& a, const Point& b) {
 void tell_strip(const std::vector<const SkinFace*>& faces, const SmoothParts& parts, std::size_t part,
                 const std::string& group) {
   constexpr double k_of_a_drawing = 75 * std::numbers::pi / 180, k_whole = 0.95;
-  constexpr double k_wider = 6;  // than the strip no other is, but the plane beside a chamfer
+  constexpr double k_wider = 6;  // than the strip no other is, but the plane next to a chamfer
   const SmoothParts wider = smooth_parts(faces, k_of_a_drawing);
   std::set<std::pair<Index, Index>> beyond;  // edges of the rest of the wider part
   std::map<std::size_t, double> area_of;     // of each smooth part

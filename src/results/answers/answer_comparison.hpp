@@ -1,4 +1,4 @@
-/// Errors of the answers of a run from those of a run beside it, with longer steps or larger elements: with
+/// Errors of the answers of a run from those of a further run, with longer steps or larger elements: with
 /// a and b the answers and r the ratio of the numbers of steps, or of elements along an edge,
 ///
 ///   5/4 |a − b| / (r − 1)

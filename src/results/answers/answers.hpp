@@ -32,7 +32,7 @@ struct CastBody {
 /// The error of an answer, in its unit: it is expected within ± total() of the answer without steps and mesh.
 struct ErrorBand {
   double step = 0, mesh = 0;
-  /// What it comes from: the run itself (answer_errors.hpp), or runs beside it (run/error_runs.hpp).
+  /// What it comes from: the run itself (answer_errors.hpp), or further runs (run/error_runs.hpp).
   bool step_compared = false, mesh_compared = false;
   double total() const { return step + mesh; }
 };

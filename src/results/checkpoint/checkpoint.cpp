@@ -170,7 +170,7 @@ void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerpri
     throw InputError({path.string(), 0, 0},
                      fmt::format("this checkpoint is of another case: its {} is '{}', that of this case '{}'",
                                  name, there, here),
-                     "run without --restart to begin anew, or choose another folder with -o");
+                     "run without --restart to start again, or choose another folder with -o");
   }
 }
 
@@ -326,8 +326,8 @@ void CheckpointFolder::require() const {
 
 void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerprint,
                              const CheckpointView& c) const {
-  // A checkpoint is written beside the one that is there, and takes its place by a rename when it is whole: a
-  // run that is killed meanwhile keeps the old one.
+  // A checkpoint is written next to the one that is there, and takes its place by a rename when it is whole:
+  // a run that is killed meanwhile keeps the old one.
   const fs::path part = latest().string() + ".part";
   on_first_process([&] {
     std::error_code error;

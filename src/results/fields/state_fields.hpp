@@ -22,7 +22,7 @@ class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind);
 
-  /// Takes the values of a committed state; gaps are those of the pairs as they stand, which must be at that
+  /// Takes the values of a committed state; gaps are those of the pairs as they are, which must be at that
   /// state. Fields of elements are computed from the state when they are read. Collective.
   void update(const coupling::State& state);
   /// The same for the fields of criteria, which cost more and are needed less often. Collective.

@@ -1,4 +1,4 @@
-// Stands for med.cpp where the MED library is not there.
+// Replaces med.cpp where the MED library is not there.
 #include "results/formats/med.hpp"
 #include "system/errors.hpp"
 

@@ -77,7 +77,7 @@ class FoamFile {
   }
   void expect(std::string_view word) {
     if (const std::string_view found = token(); found != word)
-      fail(fmt::format("'{}' stands where '{}' belongs", found.substr(0, 40), word));
+      fail(fmt::format("'{}' is where '{}' belongs", found.substr(0, 40), word));
   }
   template <class T>
   T number() {
@@ -367,7 +367,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
   const fs::path poly_mesh = folder.parent_path() / "constant/polyMesh";
   if (!fs::is_directory(poly_mesh))
     throw InputError(where, fmt::format("'{}' is a folder, but no time of a case of OpenFOAM", time.string()),
-                     "a folder of a time, with constant/polyMesh beside it; or a .csv, .vtu or .pvtu file");
+                     "a folder of a time, with constant/polyMesh next to it; or a .csv, .vtu or .pvtu file");
   FoamFile file = open_field(folder, name, where);
   const PolyMesh poly = read_mesh(poly_mesh, length, where);
   const FoamField field = read_values(std::move(file), poly);

@@ -1,4 +1,4 @@
-/// Reads a field of OpenFOAM: a time folder of a case, whose mesh lies in constant/polyMesh beside it.
+/// Reads a field of OpenFOAM: a time folder of a case, whose mesh lies in constant/polyMesh next to it.
 #pragma once
 
 #include <filesystem>

@@ -13,8 +13,8 @@ struct VtkHdfReport {
 /// Gathers the moments that the collection of a run lists: an unstructured grid with steps (VTK file formats,
 /// "VTKHDF", version 2.0). The mesh, with numbers of nodes, elements, bodies and processes, is in the file
 /// once; fields of points and cells, and `vtkGhostType` of bodies that have left, once a moment. The parts of
-/// several processes become one. Values are those of the files, compressed without loss, units stand as the
-/// attribute UNITS_LABEL.
+/// several processes become one. Values are those of the files, compressed without loss, units are written as
+/// the attribute UNITS_LABEL.
 /// @param collection  fields.pvd
 /// One process. Throws InputError where a file is missing or damaged or has another mesh than the first,
 /// OutputError where the new one cannot be written; then there is none.

@@ -13,7 +13,7 @@
 namespace solidus::results {
 
 /// Writes the elements this process counts, with the nodes they touch. Values stay in SI, units go into VTK's
-/// UNITS_LABEL. Vectors of two components are written with a third that is zero. Beside the fields: point
+/// UNITS_LABEL. Vectors of two components are written with a third that is zero. Besides the fields: point
 /// data `node` and cell data `element` (numbers of the input), `body` (index into Mesh::bodies), `process`,
 /// and where bodies have left `vtkGhostType`, which hides their cells.
 /// Not collective. Throws OutputError, NotFiniteError (nothing is written then).

@@ -1,4 +1,4 @@
-/// Files are written beside their name and renamed at the end, so that a reader never sees half of one.
+/// Files are written next to their name and renamed at the end, so that a reader never sees half of one.
 #include "results/output/output_file.hpp"
 
 #include <algorithm>

@@ -321,7 +321,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   else
     own.emplace_back(
         "There is no summary.json: the run goes on, or it was killed. The page shows how far it came.");
-  // The run at the values as they are of `solidus uncertain`, whose ranks lie beside its folder.
+  // The run at the values as they are of `solidus uncertain`, whose ranks lie next to its folder.
   if (const fs::path ranks = whole.parent_path() / "uncertain.json";
       whole.filename() == "best" && fs::exists(ranks))
     out.add("uncertain_text", checked_summary(ranks));

@@ -1,4 +1,4 @@
-/// Cases beside a case: what is changed, and that the changes are ones the case file takes.
+/// Cases next to a case: what is changed, and that the changes are ones the case file takes.
 #include "cases/nearby_case.hpp"
 
 #include <gmock/gmock.h>

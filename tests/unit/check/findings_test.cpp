@@ -169,7 +169,7 @@ TEST_F(FindingsTest, FurtherSlipsOfUnitsAreNamed) {
         << slip.with;
 }
 
-/// The casting in shots: it freezes, and the die stands open.
+/// The casting in shots: it freezes, and the die is open.
 std::string shots() {
   const std::string stages = R"(step = "1 s"
 [[stage]]

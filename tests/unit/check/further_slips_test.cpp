@@ -1,4 +1,4 @@
-// Slips that pass every check of a key: bodies that nothing holds, melt beside melt, strengths, tables,
+// Slips that pass every check of a key: bodies that nothing holds, melt next to melt, strengths, tables,
 // steps.
 #include <fstream>
 #include <string>

@@ -153,10 +153,10 @@ TEST_F(HubTest, AnOpenRiserThatNothingCoolsIsNamed) {
 
 TEST_F(HubTest, ARiserThatLiesOnItsSideIsNamed) {
   const std::string plane = changed(k_hub_case, "\"axisymmetric\"", "\"plane_strain\"");
-  EXPECT_THAT(said_of(plane), Not(Contains(HasSubstr("is closed on top and open beside"))));
+  EXPECT_THAT(said_of(plane), Not(Contains(HasSubstr("is closed on top and open at its side"))));
   EXPECT_THAT(said_of(changed(plane, "gravity = \"9.81 m/s2\"",
                               "gravity = \"9.81 m/s2\"\ngravity_direction = [1, 0]")),
-              Contains(HasSubstr("the riser 'riser' is closed on top and open beside, as gravity acts")));
+              Contains(HasSubstr("the riser 'riser' is closed on top and open at its side")));
 }
 
 TEST_F(HubTest, SandAsHotAsAShellAndAChillInKelvinsAreNamed) {
@@ -184,7 +184,7 @@ TEST_F(HubTest, ARiserBelowItsCastingIsNamed) {
 TEST_F(HubTest, AMouldOfWashWallsOfMetresAndSandHeldColdAreNamed) {
   EXPECT_THAT(said_of(changed(k_hub_case, "\"green_sand\"", "\"mould_wash\"")),
               Contains(HasSubstr("the body 'mould' is of 'mould_wash' and")));
-  // Heat comes through 10 mm of sand beside the flange, and not through 60 mm.
+  // Heat comes through 10 mm of sand next to the flange, and not through 60 mm.
   const std::string cold =
       "[[thermal_condition]]\nname = \"floor\"\ngroup = \"wall\"\nkind = \"temperature\"\n"
       "temperature = \"20 degC\"\n";

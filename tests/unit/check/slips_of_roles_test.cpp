@@ -90,7 +90,7 @@ TEST_F(FindingsTest, WaterOnSandAndFilmsThatDoNothingAreNamed) {
   EXPECT_THAT(said_of(changed(sand, "\"20 W/m2/K\"", "\"3 kW/m2/K\"")),
               Contains(HasSubstr("the film 'air' has 3000 W/m2/K on 'lower', which conducts as sand does")));
   EXPECT_THAT(said_of(changed(k_casting, "\"20 W/m2/K\"", "\"3 kW/m2/K\"")), IsEmpty())
-      << "steel stands water";
+      << "steel withstands water";
   EXPECT_THAT(said_of(changed(k_casting, "\"20 W/m2/K\"", "\"20 W/m2/K\"\nfactor = 0")),
               Contains(HasSubstr("the factor of 'air' is 0")));
 }

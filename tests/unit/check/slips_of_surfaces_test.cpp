@@ -82,7 +82,7 @@ TEST_F(FindingsTest, ConditionsOnPartsOfASurfaceInContactAreNamed) {
                          "contact 'interface'")));
 }
 
-// A film of the whole skin beside one of a side of it; a weak one changes little beside a strong one.
+// A film of the whole skin along with one of a side of it; a weak one changes little next to a strong one.
 TEST_F(FindingsTest, TwoFilmsOnOneFaceAreNamed) {
   const std::string groups = "\n[[mesh.group]]\nname = \"skin\"\nowner = \"lower\"\n";
   const auto with_film = [&](const char* coefficient) {
@@ -205,7 +205,7 @@ TEST_F(FindingsTest, RatiosThatNoMetalHasAreNamed) {
               IsEmpty());
   const std::vector<Slip> slips = {
       {"poisson_ratio = 0.33", "poisson_ratio = 0.033", "poisson_ratio of 0.033"},
-      {"\"1 GPa\"", "\"50 GPa\"", "hardening_modulus of 50 GPa beside a young_modulus of 70 GPa"},
+      {"\"1 GPa\"", "\"50 GPa\"", "hardening_modulus of 50 GPa with a young_modulus of 70 GPa"},
       {"2.2e-5 1/K", "6.6e-5 1/K", "is it that of the volume, three times as large?"},
       {"389 kJ/kg", "10.7 kJ/kg", "latent heat of 10700 J/kg"},
       {"\"150 W/m/K\"", "\"700 W/m/K\"", "conductivity of 700 W/m/K"},

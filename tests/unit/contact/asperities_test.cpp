@@ -71,7 +71,7 @@ TEST(Spots, OfAHardnessThatGrowsTowardsSmallOnesFollowTheModelInSiUnits) {
   const Asperities a = steel(-0.229);
   for (double pressure : {1e6, 1e7, 5e7}) {
     const double model = model_conductance(a, 30, model_relative_pressure(a, pressure));
-    // Beside the fit of h_S that of the size, 1.62 (t_N/H)^0.071. Were σ/m not turned into micrometres, or
+    // Besides the fit of h_S that of the size, 1.62 (t_N/H)^0.071. Were σ/m not turned into micrometres, or
     // the exponent the printed 0.71, h_S would be off by a factor of 21, or 2.7.
     EXPECT_NEAR(a.spots(pressure, 300).value, model, 0.03 * model) << pressure;
   }

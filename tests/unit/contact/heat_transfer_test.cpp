@@ -333,7 +333,7 @@ TEST(HeatTransfer, OfTwoSidesSaysWhatIsWrong) {
   EXPECT_NE(refusal(of(without)).find("has no temperature"), std::string::npos);
   HeatTransferSpec both = of(two_sides());
   both.slave_resistance = 0.5;
-  EXPECT_NE(refusal(both).find("'slave_resistance' beside a law that has both sides"), std::string::npos);
+  EXPECT_NE(refusal(both).find("'slave_resistance' with a law that has both sides"), std::string::npos);
 }
 
 TEST(HeatTransfer, SaysWhatALawLacks) {

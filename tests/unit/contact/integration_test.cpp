@@ -229,7 +229,7 @@ TEST(ContactPoints, AreCountedOnceOverAllProcessesAndCompleteForOwnedRows) {
   }
 }
 
-// An L: the bottom and the right wall of a box that stands in a trough, as one surface each.
+// An L: the bottom and the right wall of a box that lies in a trough, as one surface each.
 TEST(Segments, PairEachWallOfACornerWithTheWallItFaces) {
   mesh::CylinderInMould c{0.02, 0.05, 0.01, 0.01, 0.08, 0.004, 0.006};
   const int rank = processes::rank();

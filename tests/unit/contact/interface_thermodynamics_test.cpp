@@ -343,7 +343,7 @@ TEST(InterfaceReturnMapping, AgreesWithHeldSlipInTheLimitOfSmallSteps) {
   EXPECT_NEAR(gap(100) / gap(200), 2, 0.2);
 }
 
-/// L of a point that is pulled by a store of energy, beside bodies at Θ_o (3.69): what the store gives is
+/// L of a point that is pulled by a store of energy, next to bodies at Θ_o (3.69): what the store gives is
 /// lost there, and the bodies' E − Θ_o S does not change with heat at Θ_o.
 class Functional {
  public:

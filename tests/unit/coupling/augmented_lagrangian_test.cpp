@@ -1,4 +1,4 @@
-/// Turns of the augmented Lagrangian: when they end, and what they follow.
+/// Augmentations of the Lagrangian: when they end, and what they follow.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ std::vector<double> moved(const PressedBlocks& blocks, double lift) {
   return u;
 }
 
-// A step that ends with turns left over is better than the penalty, or it is cut.
+// A step that ends before its augmentations have converged is better than the penalty, or it is cut.
 TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenaltyIsBetter) {
   PressedBlocks blocks;
   Rubbed& run = *blocks.run;
@@ -141,7 +141,7 @@ TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenal
   EXPECT_FALSE(coupling::penetrations_small(run.phases, 199));
   blocks.solve();
   EXPECT_TRUE(coupling::penetrations_small(run.phases, 200));
-  EXPECT_TRUE(coupling::penetrations_small(run.phases, 60, 140)) << "passes share their turns";
+  EXPECT_TRUE(coupling::penetrations_small(run.phases, 60, 140)) << "passes share their augmentations";
   ASSERT_EQ(logging::warnings().size(), 1);
   EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("% of the mean contact pressure"));
 
@@ -264,7 +264,7 @@ TEST(AugmentedLagrangian, SettlesInPassesOfOneIterationAsInPassesToEquilibrium) 
   bool solved = take();
   for (int passes = 1; passes < 10 && !solved; ++passes) solved = take();
   EXPECT_TRUE(solved);
-  EXPECT_GE(iterations, 2) << "of the turns in which the multipliers grew";
+  EXPECT_GE(iterations, 2) << "of the augmentations in which the multipliers grew";
   EXPECT_TRUE(take());
   EXPECT_LE(iterations, 1) << "what was found is the start of the next pass";
   EXPECT_LE(single.pair.excess(), 1);

@@ -114,7 +114,7 @@ TEST(BlockIterative, IsentropicPassesContractWhateverTheCouplingNumber) {
 }
 
 TEST(BlockIterative, IsentropicPassesAreExactWithoutConduction) {
-  // The first turn moves heat, the second one answers it, the third one finds nothing left to do.
+  // The first iteration moves heat, the second one answers it, the third one finds nothing left to do.
   IterationOptions options;
   options.tolerance = 1e-3;
   EXPECT_EQ(changes(2, 0, Mapping::isentropic, options).size(), 3U);
@@ -158,7 +158,7 @@ TEST(BlockIterative, RejectsAStepThatTakesTooManyIterations) {
   }
 }
 
-// Radiation takes more Newton steps than the phases take turns.
+// Radiation takes more Newton steps than there are iterations of the phases.
 TEST(BlockIterative, SolvesAStepWithWholePassesWhereSingleNewtonStepsDoNotConverge) {
   constexpr double k_day = 86400;
   const auto solve = [](const IterationOptions& options, coupling::State& end) {

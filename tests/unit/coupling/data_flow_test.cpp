@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Elements, MechanicalDataFlow,
                                            Element{Shape::tri3, Mapping::isothermal},
                                            Element{Shape::tri3, Mapping::isentropic}));
 
-// Heat: metal that freezes beside a film whose temperature changes.
+// Heat: metal that freezes next to a film whose temperature changes.
 
 material::Material freezing() {
   material::Material m = test::elastic_material(2e11, 0.3, 1e-5);

@@ -62,7 +62,7 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
       round(flat, AnalysisKind::axisymmetric);
   EXPECT_LT(in_plane.of_distortion(field(flat, AnalysisKind::plane_strain, flat_rigid), {}), 1e-6);
   EXPECT_LT(in_space.of_distortion(field(block, AnalysisKind::solid, rigid), {}), 1e-6);
-  // The distortion does not depend on the rigid motion beside it, and no rigid motion makes it smaller.
+  // The distortion does not depend on the rigid motion that comes with it, and none makes it smaller.
   const auto bent = [&](const mesh::Point& x) -> mesh::Point {
     const mesh::Point a = rigid(x), b = bend(x);
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -173,7 +173,7 @@ TEST(DisplacementError, MeltThatFlowsCostsNoStep) {
   coupling::Rates rates = estimate.rates_of(rest, rest, 1, {});
   EXPECT_EQ(estimate.displacement_predictor(rest, body.moved(5, 0), 1, rates), 0);
   EXPECT_EQ(estimate.doubling(rest, rest, body.moved(5, 0), {}, 1, {}).displacement, 0);
-  // Nodes that have no melt beside them count with their share of the body's volume: four of nine columns.
+  // Nodes that have no melt next to them count with their share of the body's volume: four of nine columns.
   const double half = std::sqrt(0.5 - 1.0 / 16);
   EXPECT_NEAR(estimate.doubling(rest, rest, body.moved(5, 3), {}, 1, {}).displacement, 3 * half, 1e-12);
   EXPECT_NEAR(estimate.displacement_predictor(rest, body.moved(5, 3), 1, rates), 1.5 * half, 1e-12);

@@ -49,7 +49,7 @@ struct Rubbed {
   }
 };
 
-/// The lower block stands; the upper one is pressed by 20 MPa and pulled along at 20 mm/s.
+/// The lower block is at rest; the upper one is pressed by 20 MPa and pulled along at 20 mm/s.
 inline mechanics::MechanicalConditions pulled() {
   mechanics::MechanicalConditions c;
   c.displacements.push_back({"lower_y_min", 0, 0.0});

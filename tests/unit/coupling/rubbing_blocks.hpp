@@ -96,7 +96,7 @@ struct RubbingBlocks {
 
   /// @param absent     the body that only conducts heat
   /// @param supported  and moved, of metal that expands; else both are free, and neither expansion nor heat
-  ///                   capacity stands beside what contact does
+  ///                   capacity is added to what contact does
   RubbingBlocks(const Rubbing& c, bool supported, const std::string& absent = {})
       : RubbingBlocks(two_blocks(c.shape), c, supported, absent) {}
   RubbingBlocks(mesh::Mesh blocks, const Rubbing& c, bool supported, const std::string& absent = {})

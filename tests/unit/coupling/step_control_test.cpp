@@ -43,7 +43,7 @@ TEST(StepControl, TurnsMayEndEarlyAfterThreeFailuresUntilAStepSettles) {
   StepMeasure unsettled = iterations(3);
   unsettled.ended_early = true;
   control.accepted(control.plan(0), unsettled);
-  EXPECT_TRUE(control.may_end_early()) << "steps that follow need not fail anew";
+  EXPECT_TRUE(control.may_end_early()) << "steps that follow need not fail again";
   control.accepted(control.plan(0.2), iterations(3));
   EXPECT_FALSE(control.may_end_early());
 }
@@ -87,7 +87,7 @@ TEST(StepControl, ARunThatGoesOnFromAnOutputHasTheEventsOfOneThatHasNotStopped) 
   StepControl whole(step_of(1), 0, {2.0, 5.0}, events), rest(step_of(1), 2, {2.0, 5.0}, events);
   const std::vector<double> all = ends_of_steps(whole);
   EXPECT_EQ(std::vector<double>(all.begin() + 2, all.end()), ends_of_steps(rest, 2));
-  EXPECT_TRUE(whole.jumps_at(2)) << "an output stands for it";
+  EXPECT_TRUE(whole.jumps_at(2)) << "an output replaces it";
   EXPECT_TRUE(whole.jumps_at(3.5));
   EXPECT_FALSE(whole.jumps_at(5));
 }

@@ -33,7 +33,7 @@ double frozen_share(double x, double h, double length, double front, bool around
   return (outer - front) / (outer - inner);
 }
 
-/// Heights to which metal stands above the bottom, as shares, by the place x. Collective.
+/// Heights to which metal reaches above the bottom, as shares, by the place x. Collective.
 std::map<long, double> surface_heights(FreezingBody& body) {
   std::vector<double> own;
   for (Index i = 0; i < body.mesh.n_owned_nodes; ++i) {

@@ -255,7 +255,7 @@ TEST(Distortion, CountsFromCoherencyOn) {
     EXPECT_NEAR(f.distortion[2 * node], 0.035 * bar.mesh().x[node][0], k_rounding);
 }
 
-// A wall that is solid stands beside melt that sinks. The nodes between them are solid, their elements on one
+// A wall that is solid is next to melt that sinks. The nodes between them are solid, their elements on one
 // side are not: they go with the melt, and that is no distortion.
 TEST(Distortion, OfANodeBeginsWhenAllItsElementsAreCoherent) {
   Bar bar({AnalysisKind::axisymmetric, Shape::quad4});
@@ -269,7 +269,7 @@ TEST(Distortion, OfANodeBeginsWhenAllItsElementsAreCoherent) {
   bar.step(k_cold, sinks(0.1));
   bool between = false;
   for (const Point& x : bar.mesh().x) between = between || (x[0] > 0.2 && x[0] < 0.5);
-  EXPECT_TRUE(between) << "no solid node beside melt";
+  EXPECT_TRUE(between) << "no solid node next to melt";
   expect_all(bar.fields().distortion, 0);
 }
 

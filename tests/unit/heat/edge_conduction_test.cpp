@@ -1,4 +1,4 @@
-/// Conduction beside a re-entrant edge of 90 degrees: a square, or a box, of which a quarter is missing.
+/// Conduction at a re-entrant edge of 90 degrees: a square, or a box, of which a quarter is missing.
 ///
 ///        +-------+-------+        s = r^(2/3) cos(2φ/3)   its faces at one temperature
 ///        |               |        s = r^(2/3) sin(2φ/3)   no heat through them
@@ -58,7 +58,7 @@ double exact_energy() {
   return k_alpha / 2 * sum * k_angle / k_parts;
 }
 
-/// Places of the nodes on an axis: of even cells, or with three thin ones beside the edge.
+/// Places of the nodes on an axis: of even cells, or with three thin ones next to the edge.
 std::vector<double> axis(bool graded) {
   std::vector<double> half;
   if (graded) half = {0.03, 0.0675, 0.114};
@@ -192,7 +192,7 @@ TEST_P(Angle, ConductsWhatTheSingularFunctionsDo) {
     }
     const std::string what = faces == Faces::one_temperature ? "faces at one temperature" : "insulated faces";
     RecordProperty(what, std::to_string(error[0]) + " " + std::to_string(error[1]));
-    // Where cells are thin beside the edge, more of what is wrong is so elsewhere.
+    // Where cells are thin next to the edge, more of what is wrong is so elsewhere.
     EXPECT_GT(error[0], graded ? 0.002 : 0.004) << what;
     EXPECT_LT(std::abs(error[1]), (graded ? 0.7 : 0.35) * error[0])
         << what << ": " << error[0] << ", corrected " << error[1];

@@ -57,7 +57,7 @@ TEST(OpenRuleBesides, HoldsAnIsothermalChangeAtItsTemperature) {
   EXPECT_TRUE(parallel::any_process(freezing > 0));
 }
 
-/// A body beside another one, unconnected: it stores its heat at Gauss points as before when the other one
+/// A body next to another one, unconnected: it stores its heat at Gauss points as before when the other one
 /// has an isothermal change and the unknown is the enthalpy of the nodes.
 TEST(OpenRuleBesides, StoresOtherBodiesAtGaussPointsBesideOneThatFreezesIsothermally) {
   for (const mesh::Shape shape : {mesh::Shape::quad4, mesh::Shape::tri6, mesh::Shape::hex8})

@@ -159,7 +159,7 @@ TEST(BlockMultigrid, SmallBodiesBesideALargeOneCostNothing) {
 }
 
 // More than a thousand little bodies, each on a soft spring and an aggregate of its own: no process shall
-// factorise them all. That is said, and conjugate gradients still converge.
+// factorise them all. That is reported, and conjugate gradients still converge.
 TEST(BlockMultigrid, ACoarsestLevelThatIsTooLargeToBeFactorisedIsSmoothed) {
   constexpr int k_columns = 120;
   for (const int width : {3, 12}) {  // 1 600 bodies of 2 × 2 nodes, 100 of 11 × 11

@@ -69,7 +69,7 @@ TEST(Dense, OrthogonalFactorsMultiplyToTheMatrixAndSolveWithIt) {
   EXPECT_LT(largest_difference(right, beside), 1e-13);
 }
 
-// A rotation by 60 degrees beside the number 3: a conjugate pair and a real value.
+// A rotation by 60 degrees along with the number 3: a conjugate pair and a real value.
 TEST(Dense, EigenvectorsOfAConjugatePairAreItsRealAndImaginaryParts) {
   const double c = 0.5, s = std::sqrt(0.75);
   Matrix a(3, 3);

@@ -110,7 +110,7 @@ TEST(Newton, ConvergesQuadratically) {
   EXPECT_LT(p, 2.3);
 }
 
-/// Springs that leave next to nothing but a load in balance with the ground, wherever they stand: a residual
+/// Springs that leave next to nothing but a load in balance with the ground, wherever they are: a residual
 /// of 1e-6 for a displacement that is off by one.
 class SoftSprings : public SpringGrid {
  public:
@@ -328,7 +328,7 @@ TEST(Newton, ATangentThatNoLongerServesIsReplaced) {
   EXPECT_EQ(system.steps.size(), 2U) << "the step that did not serve is taken back";
 }
 
-// The rounding of a stiff body beside a soft one may be more than the tolerance allows of the soft one's
+// The rounding of a stiff body next to a soft one may be more than the tolerance allows of the soft one's
 // forces.
 TEST(Newton, AResidualThatCountsAsRoundingIsBroughtDownFurtherWhereForcesAreFarAboveItAndItFalls) {
   const Grid grid(5, 6);

@@ -22,7 +22,7 @@ struct Springs {
   using Nodes = std::function<bool(int i, int j)>;
   explicit Springs(int n) : Springs(n, [](int, int) { return true; }) {}
   /// @param there  have unknowns
-  /// @param held   beside those of the first column
+  /// @param held   besides those of the first column
   Springs(
       int n, const Nodes& there, BlockMatrix::Storage storage = BlockMatrix::Storage::whole,
       const Nodes& held = [](int, int) { return false; })

@@ -243,7 +243,7 @@ TEST(CardImport, NamesWhatACardStillNeeds) {
   EXPECT_NO_THROW(imported(other, options));
 }
 
-/// A table as JMatPro or Thermo-Calc would print it: 430 kJ/kg between 557 and 614 degC, 1 J/g/K beside.
+/// A table as JMatPro or Thermo-Calc would print it: 430 kJ/kg between 557 and 614 degC, 1 J/g/K next to it.
 std::string table(const std::string& headers, const std::function<std::string(double, double)>& row) {
   std::string text = headers + "\n";
   for (double t = 700; t >= 25; t -= t > 614 ? 2 : t > 557 ? 1 : 19)

@@ -84,7 +84,7 @@ TEST(Hardening, LanesAnswerAsNumbersDo) {
 }
 
 TEST(Hardening, IsWhatTheMonographsFormulaSays) {
-  // 2.60 at 300 K: (σ_∞ − σ_0)(1 − exp(−δ ξ)), and H ξ beside it
+  // 2.60 at 300 K: (σ_∞ − σ_0)(1 − exp(−δ ξ)), and H ξ in addition
   const Material m = flow_material({IsotropicHardening::saturation});
   const auto p = flow_properties_at(*m.flow, 300.0);
   const auto k = hardening_stress(IsotropicHardening::saturation, m.flow->curves, p, 0.02);

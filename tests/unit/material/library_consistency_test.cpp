@@ -231,7 +231,7 @@ struct Limit {
   double per_kelvin;  ///< of the logarithm
 };
 
-// A slip of a digit stands out as a kink. The change of steel to austenite, that of quartz and the Curie
+// A slip of a digit shows as a kink. The change of steel to austenite, that of quartz and the Curie
 // point are true peaks of the specific heat; what melts may jump.
 TEST(LibraryConsistency, NoPropertyOfASolidHasAKink) {
   const std::array<Limit, 5> limits{{{"conductivity", 0.006},

@@ -107,8 +107,8 @@ TEST(SolidificationPath, MeetsMeasuredLiquidusTemperatures) {
   EXPECT_NEAR(freeze("Zn-4Al", SolidificationRule::scheil).liquidus - 273.15, 387, 2);
 }
 
-// Magnesium goes into aluminium beside silicon as in the ternary eutectic: calculations with databases leave
-// 2 to 4 %.
+// Magnesium goes into aluminium along with silicon as in the ternary eutectic: calculations with databases
+// leave 2 to 4 %.
 TEST(SolidificationPath, LeavesMagnesiumToTheTernaryEutectic) {
   const SolidificationPath path = freeze("Al-7Si-0.35Mg", SolidificationRule::scheil);
   EXPECT_NEAR(path.end - 273.15, 555, 0.1);
@@ -149,7 +149,7 @@ std::string message(const std::function<void()>& work) {
   return "accepted";
 }
 
-// The straight lines of the library beside a calculation with the Gibbs energies of COST 507
+// The straight lines of the library compared with a calculation with the Gibbs energies of COST 507
 // (tests/verification/reference/scheil_cost507.py): Al-Si-Mg castings from the liquidus to the ternary
 // eutectic.
 TEST(SolidificationPath, IsNearThatOfAThermodynamicAssessment) {

@@ -46,7 +46,7 @@ TEST(MeltModulus, ViscosityIsThatOfAHundredthOfTheTimeThatHeatTakesAcrossTheSect
   const MeltModulus thick = melt_modulus(m, 9.81, 2.0, 0.02), thin = melt_modulus(m, 9.81, 2.0, 0.01);
   EXPECT_DOUBLE_EQ(thick.time, 0.01 * 0.02 * 0.02 / diffusivity);
   EXPECT_DOUBLE_EQ(thick.time, 4 * thin.time);
-  // Steps have one and the same melt but for those that the arithmetic does not stand.
+  // Steps have one and the same melt but for those that the arithmetic cannot resolve.
   for (const double dt : {1e-3, 1e-2})
     EXPECT_DOUBLE_EQ(thick.viscosity(dt), thick.modulus * thick.time) << dt;
   EXPECT_DOUBLE_EQ(thick.viscosity(1e9), 1e-8 * thick.bulk * 1e9);

@@ -20,7 +20,7 @@ double slope(const Ad& a, int i) {
   return static_cast<double>(a.derivatives()[static_cast<std::size_t>(i)]);
 }
 
-/// A number with the temperature derivative that it is said to have.
+/// A number with the temperature derivative that it is stated to have.
 Ad reseeded(const Jet<Ad>& a) {
   return Ad(a.v.value(), 7, k_theta).with_slopes_times(a.d.value());
 }

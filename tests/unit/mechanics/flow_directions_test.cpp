@@ -1,4 +1,4 @@
-/// The directions of plastic flow that Newton's method finds beside the displacement.
+/// The directions of plastic flow that Newton's method finds along with the displacement.
 #include "mechanics/elements/flow_directions.hpp"
 
 #include <gtest/gtest.h>

@@ -35,7 +35,7 @@ mesh::RawMesh rod_with_disc(int n_along, double off_axis) {
 }
 
 // The tolerance of the axis is a share of the largest radius of all processes: by the rod's alone, 1e-3 m,
-// its nodes at 5e-12 m would be beside the axis for a process that has nothing of the disc.
+// its nodes at 5e-12 m would be next to the axis for a process that has nothing of the disc.
 TEST(Loads, NodesOnTheAxisAreHeldWhateverProcessHasThem) {
   const mesh::Mesh mesh = mesh::distribute(rod_with_disc(40, 5e-12), {"rod"}, {});
   const linear::ActiveSet active(mesh);

@@ -128,8 +128,8 @@ class SoftSkin final : public linear::Contribution {
   std::vector<std::size_t> rows_;
 };
 
-// Its nodes are off the skin and pressed in by turns. What Newton's iteration takes off has no stiffness left
-// but that of the block, a hundredth of the skin's, and goes in again as far as a step may.
+// Its nodes are off the skin and pressed in by augmentations. What Newton's iteration takes off has no
+// stiffness left but that of the block, a hundredth of the skin's, and goes in again as far as a step may.
 TEST_F(LiftedBlock, RestsOnASoftSkinOnceTheTangentHoldsWhatCameOffAndNotByShortStepsAlone) {
   SoftSkin skin(block_.mesh);
   block_.contributions = {&skin};

@@ -98,8 +98,8 @@ TEST(StructuralHeat, TheTangentIsTheRowSumOfTheDerivative) {
     }
 }
 
-// A tangent that is lumped has the other sign at the corners of quadratic elements, beside a capacity that is
-// not lumped: heat then converged by a factor of 0.8 in an iteration.
+// A tangent that is lumped has the other sign at the corners of quadratic elements, next to a capacity that
+// is not lumped: heat then converged by a factor of 0.8 in an iteration.
 TEST(StructuralHeat, TheTangentIsTheDerivativeWhereGaussPointsStoreTheHeat) {
   for (auto [shape, kind] : {std::pair{Shape::quad8, AnalysisKind::plane_strain},
                              {Shape::tet10, AnalysisKind::solid},
@@ -220,7 +220,7 @@ TEST(StructuralHeat, DoesNotJumpWhereATableBends) {
     const auto at = [&](double theta) {
       return total(residual(heat, solved, std::vector<double>(s.body.mesh.x.size(), theta)));
     };
-    // Smooth: what two millikelvin change beside the bend they change across it, to the curvature.
+    // Smooth: what two millikelvin change next to the bend they change across it, to the curvature.
     const double across = at(325.001) - at(324.999), beside = at(324.999) - at(324.997);
     EXPECT_NEAR(across, beside, 1e-4 * std::abs(beside));
   }

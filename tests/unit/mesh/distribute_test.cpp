@@ -20,7 +20,7 @@ int answer_of_metis = METIS_OK;
 
 }  // namespace
 
-// Stands before METIS's own function, which it calls unless METIS shall fail.
+// Is linked before METIS's own function, which it calls unless METIS shall fail.
 extern "C" int METIS_PartGraphRecursive(idx_t* n, idx_t* n_constraints, idx_t* start, idx_t* node,
                                         idx_t* weight, idx_t* size, idx_t* edge_weight, idx_t* n_parts,
                                         real_t* target, real_t* imbalance, idx_t* options, idx_t* cut,

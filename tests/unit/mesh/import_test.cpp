@@ -328,7 +328,7 @@ TEST_F(MeshFiles, ATruncatedFileIsRefusedWhereverItEnds) {
       const std::string file = path("whole.msh");
       write_model(file, 2, 1, version, true, false, binary);
       const std::string text = text_of(file);
-      // up to the end of the elements, behind which nothing that matters stands
+      // up to the end of the elements, behind which nothing that matters follows
       const std::size_t end = text.find("$EndElements");
       ASSERT_NE(end, std::string::npos);
       for (const double part : {0.02, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97}) {

@@ -84,7 +84,7 @@ TEST(NastranInput, FreeAndLargeFieldsAndNumbersWithoutAnEMeanTheSame) {
 }
 
 TEST(NastranInput, SystemsOfEveryKindMayBeGivenInEachOther) {
-  // System 1 stands at x = 1; system 2, cylindrical, in it at y = 1 with its axis along x; system 3 is
+  // System 1 is at x = 1; system 2, cylindrical, in it at y = 1 with its axis along x; system 3 is
   // spherical; system 4 is spanned by nodes 1, 2 and 3.
   const RawMesh raw = read_nastran(write_bulk("CORD2R,1,0,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\n"
                                               "CORD2C,2,1,0.,1.,0.,1.,1.,0.\n,0.,2.,0.\n"

@@ -30,7 +30,7 @@ using ::testing::IsEmpty;
 
 /// Bricks of a box as two wedges each, with their nodes in an order that has nothing to do with their places:
 /// cuts by the lowest number then run in all directions.
-/// @param keeps_bricks  one in four stays a brick, so that columns of bricks stand beside wedges
+/// @param keeps_bricks  one in four stays a brick, so that columns of bricks are next to wedges
 RawMesh box_of_wedges(bool keeps_bricks = false) {
   RawMesh raw = sample_box(Shape::hex8);
   std::erase_if(raw.groups, [](const auto& group) { return group.first.starts_with("z_"); });  // of triangles
@@ -177,7 +177,7 @@ TEST(SplitCells, BricksWithRepeatedCornersAreTheCellsThatTheyLookLike) {
 
 TEST(SplitCells, AreReadFromEveryFormatWithTheirFaces) {
   const std::string nodes = "*NODE\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,3\n5,2,0,3\n6,0,2,3\n7,-1,1,1.5\n";
-  // The pyramid stands on the face 3-1-4-6 of the wedge.
+  // The pyramid is on the face 3-1-4-6 of the wedge.
   const std::string deck = nodes +
                            "*ELEMENT,TYPE=C3D6,ELSET=part\n1,1,2,3,4,5,6\n"
                            "*ELEMENT,TYPE=C3D5,ELSET=part\n2,1,3,6,4,7\n"

@@ -109,7 +109,7 @@ TEST(NewCaseReport, NotesARiserBesideThePlaneOfSymmetry) {
   Report report;
   report.draft.risers = {DraftRiser{.foot = {0.02, 0.01, 0.04}, .diameter = 0.04, .height = 0.06}};
   report.draft.symmetry = DraftSymmetry{1, 0.03};
-  EXPECT_THAT(report.text(), HasSubstr("the part is thickest 20 mm beside the plane of symmetry"));
+  EXPECT_THAT(report.text(), HasSubstr("the part is thickest 20 mm off the plane of symmetry"));
   report.draft.risers[0].foot[1] = 0.03;
   EXPECT_THAT(report.text(), HasSubstr("halved by the plane of symmetry on which it stands"));
   EXPECT_THAT(report.text(), Not(HasSubstr("note")));

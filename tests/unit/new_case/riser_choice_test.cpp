@@ -61,7 +61,7 @@ TEST(RiserChoice, StandsOnTheThickestPlaceWhereNothingIsInItsWay) {
   EXPECT_NEAR(riser.foot[2], 0.014 - 0.05 * riser.diameter, 1e-12);
 }
 
-// As in a brake disc, whose hat rises beside the ring that is to be fed: the riser cut the wall of the hat
+// As in a brake disc, whose hat rises next to the ring that is to be fed: the riser cut the wall of the hat
 // and came out of it on the other side, which no mesh could follow.
 TEST(RiserChoice, KeepsClearOfAWallBesideThePlaceAndHangsOverTheEdgeForThat) {
   Blocks angle;
@@ -167,7 +167,7 @@ TEST(FeedingDistance, IsThatOfThePlatesAndBarsThatWerePoured) {
   EXPECT_DOUBLE_EQ(FeedingDistance().along(4 * 0.0254, false, true), 12 * 0.0254);  // 6 sqrt(4 in)
 }
 
-// As on a sheave, whose hub has a bore: a riser beside the bore hangs over the blade that begins there.
+// As on a sheave, whose hub has a bore: a riser next to the bore hangs over the blade that begins there.
 TEST(RiserChoice, StandsOnTheMiddleOfABossWithABore) {
   Blocks boss;
   boss.add("west", {0, 0, 0}, {0.02, 0.06, 0.06});

@@ -38,7 +38,7 @@ TEST(Pieces, LanesAndNumbersFindThePieceThatASearchFindsForAnyNumberAndSpacing) 
         Lane x;
         for (int i = 0; i < k_lanes; ++i) x.set(i, uniform(random));
         const double start =
-            expected[static_cast<std::size_t>(k) % expected.size()].x;  // exactly, and beside it
+            expected[static_cast<std::size_t>(k) % expected.size()].x;  // exactly, and next to it
         x.set(1, start);
         x.set(2, std::nextafter(start, 0.0));
         x.set(6, std::nextafter(start, 1e9));

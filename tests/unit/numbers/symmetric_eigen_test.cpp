@@ -46,7 +46,7 @@ TEST(SymmetricEigen, ADiagonalMatrixIsSortedAndKeepsItsBits) {
 }
 
 TEST(SymmetricEigen, OfAStateOfStressThePrincipalOnesInPascal) {
-  // Pure shear of 100 MPa beside a pressure of 1 Pa.
+  // Pure shear of 100 MPa along with a pressure of 1 Pa.
   const SymmetricEigen e = symmetric_eigen({0, 1e8, 0, 1e8, 0, 0, 0, 0, -1}, 3);
   EXPECT_DOUBLE_EQ(e.values[0], -1e8);
   EXPECT_DOUBLE_EQ(e.values[1], -1);

@@ -59,7 +59,7 @@ class CraftedCheckpoint : public ::testing::Test {
     write();
   }
   void write() const { file_of_.write(mesh_, {}, {state_, continuation_, energy_, 0, 0, stability_}); }
-  /// Changes the file by `damage`, makes its checksum fit, and returns what is said of it.
+  /// Changes the file by `damage`, makes its checksum fit, and returns what is reported of it.
   std::string said_of(const std::function<void(hid_t)>& damage) const {
     write();
     fs::remove(file_of_.previous());

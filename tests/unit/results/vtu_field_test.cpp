@@ -147,7 +147,7 @@ TEST_F(VtuField, ElementsTooDeepInEachOtherAreRefused) {
   std::string deep = "<VTKFile type=\"UnstructuredGrid\">";
   for (int i = 0; i < 60; ++i) deep += "<a b='/>'>";
   EXPECT_THAT([&] { read(deep); }, ThrowsMessage<InputError>(HasSubstr("deeper in each other")));
-  std::string wide = k_base64;  // many beside each other are in order, comments and all
+  std::string wide = k_base64;  // many next to each other are in order, comments and all
   for (int i = 0; i < 1000; ++i)
     wide.insert(wide.find("<UnstructuredGrid>"), "<FieldData><!-- <a> --><Array/><?a <b> ?></FieldData>");
   EXPECT_THAT(read(wide).values, ElementsAre(1, 2, 3));
@@ -165,7 +165,7 @@ TEST_F(VtuField, PartsThatAreListsOrComeTwiceAreRefused) {
   list("all.pvtu", {"a.vtu"});
   EXPECT_NO_THROW(read_list());
   list("all.pvtu", {"a.vtu", "./a.vtu"});
-  EXPECT_THAT(read_list, ThrowsMessage<InputError>(HasSubstr("stands in the list of parts twice")));
+  EXPECT_THAT(read_list, ThrowsMessage<InputError>(HasSubstr("is in the list of parts twice")));
   list("all.pvtu", {"other.pvtu"});
   list("other.pvtu", {"a.vtu"});
   EXPECT_THAT(read_list, ThrowsMessage<InputError>(HasSubstr("a grid of the type 'PUnstructuredGrid'")));

@@ -99,7 +99,7 @@ TEST_F(Vtu, OfComputedFieldsIsTheSameFileWithoutHoldingThem) {
     std::vector<double> storage;
     EXPECT_TRUE(field.values.empty());
     const std::span<const double> values = field.read(storage);
-    EXPECT_EQ(values.data(), storage.data()) << "the reader's, and nobody else's";
+    EXPECT_EQ(values.data(), storage.data()) << "the reader's own";
   }
   for (const Field& field : stored.all()) {
     std::vector<double> storage;

@@ -1,4 +1,4 @@
-/// Ambient temperature, admissible conditions, and what is said of the isothermal split.
+/// Ambient temperature, admissible conditions, and what is reported of the isothermal split.
 #include "setup/admissible.hpp"
 
 #include <gmock/gmock.h>
