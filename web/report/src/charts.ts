@@ -168,7 +168,7 @@ export function chart(spec: ChartSpec): HTMLElement {
 const redraws = new Set<() => void>(), everything = new Set<() => void>();
 const drop = new WeakMap<HTMLElement, () => void>();
 
-/** Two charts stand beside each other on A4. */
+/** Two charts fit next to each other on A4. */
 const PAPER_WIDTH = 420;
 let paper = false;
 

@@ -3,7 +3,7 @@ import {
   Camera, GLSL3, Mesh, NoBlending, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, Vector2, WebGLRenderer, WebGLRenderTarget,
 } from "three";
 
-/** A picture that takes longer than this is not made anew for every move [ms]. */
+/** A picture that takes longer than this is not drawn again for every move [ms]. */
 const SLOW = 40;
 /** So long after the last move a draft gives way to the picture [ms]. */
 const REST = 180;

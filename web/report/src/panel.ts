@@ -1,4 +1,4 @@
-/** The panel beside the pictures: what is drawn, of which bodies, how far displaced, where cut and from where seen. */
+/** The panel next to the pictures: what is drawn, of which bodies, how far displaced, where cut and from where seen. */
 import { Vector3 } from "three";
 import { MAPS } from "./colours";
 import { byId, h, save } from "./dom";

@@ -1,4 +1,4 @@
-/** What stands below the picture: curves, criteria, pools, steps, energy, materials, the case. */
+/** What is below the picture: curves, criteria, pools, steps, energy, materials, the case. */
 import { byId, h, save, svg, table } from "./dom";
 import { chart, Line } from "./charts";
 import { duration, labelOf, PERCENT, short, Unit, unitOfValue, unitText, withUnit } from "./quantities";
@@ -403,7 +403,7 @@ function caseText(run: Run): Node_[] {
     pre.append("\n");
   }
   return [
-    h("p", { class: "hint" }, "As it was read, every default filled in; it runs again as it stands. ",
+    h("p", { class: "hint" }, "As it was read, every default filled in; it runs again as it is. ",
       h("button", { class: "link", click: () => save("case.toml", run.meta.case_text) }, "Save case.toml")),
     pre,
   ];

@@ -1,4 +1,4 @@
-/** The pictures of the runs and the slider below: one choice for all, which the panel beside them changes. */
+/** The pictures of the runs and the slider below: one choice for all, which the panel next to them changes. */
 import { Quaternion, Vector3 } from "three";
 import { byId, h } from "./dom";
 import { markTime } from "./charts";
