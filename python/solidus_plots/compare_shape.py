@@ -1,4 +1,4 @@
-"""A measured part beside its computed or nominal shape: python3 -m solidus_plots.compare_shape MEASURED SHAPE, as `solidus
+"""A measured part compared with its computed or nominal shape: python3 -m solidus_plots.compare_shape MEASURED SHAPE, as `solidus
 compare-shape` does. docs/guide/pattern.md tells what comes out.
 """
 

@@ -35,11 +35,11 @@ figure { margin: 0 0 4mm; text-align: center; break-inside: avoid; } figure img 
 
 
 def number_text(value, error=None):
-    """A value with as many digits as its error lets stand, two of which are shown; four digits without an error."""
+    """A value with as many digits as its error allows, two of which are shown; four digits without an error."""
     if error is None or not error > 0 or not math.isfinite(error):
         return f"{value:.4g}"
     digits = 1 - math.floor(math.log10(error))
-    if value and abs(error) > 100 * abs(value):  # the value says nothing beside such an error
+    if value and abs(error) > 100 * abs(value):  # the value says nothing with such an error
         return f"{value:.2g}"
     return f"{round(value, digits):.{max(digits, 0)}f}"
 
@@ -79,7 +79,7 @@ def _css_text(text):
 
 
 def page_of(template, report):
-    """The whole page. Nothing of it may load or run anything, whatever stands in a case or a template."""
+    """The whole page. Nothing of it may load or run anything, whatever is in a case or a template."""
     style = STYLE.replace("ACCENT", template.text("colour") or "#1f4e79")
     style = style.replace("FOOTER", _css_text(template.text("footer") or report.title)).replace("PAGE", _css_text(template.words["page"]))
     sections = [("first", first_page(template, report)), ("pictures", picture_page(template, report)),

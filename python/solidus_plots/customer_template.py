@@ -8,7 +8,7 @@ import tomllib
 
 from solidus_plots.vtu import ResultError
 
-NAME = "customer.toml"  # beside the case
+NAME = "customer.toml"  # next to the case
 IMAGES = {".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg", ".svg": "image/svg+xml", ".gif": "image/gif"}
 LARGEST_LOGO = 2_000_000  # bytes
 LONGEST_INTRODUCTION = 900  # characters, for which the first page has room
@@ -24,7 +24,7 @@ WORDS = {
     "remarks": "Remarks", "limits": "What the numbers are",
     "limits_text": "The errors are estimates of what time step and mesh change in an answer, half widths. They do not hold what is "
                    "uncertain in the data of materials and surroundings; the sources on the last page tell where those come from, and "
-                   "the word \"estimate\" marks values that nobody measured for this alloy.",
+                   "the word \"estimate\" marks values that were not measured for this alloy.",
     "page": "Page",
 }
 TEXTS = ("title", "company", "address", "logo", "customer", "order", "part", "author", "date", "introduction", "remarks", "footer",
@@ -45,7 +45,7 @@ class Template:
 
 
 def find_template(named, case_file):
-    """The template that was named, else customer.toml beside the case, else none. Throws ResultError for a name without file."""
+    """The template that was named, else customer.toml next to the case, else none. Throws ResultError for a name without file."""
     if named:
         if not Path(named).is_file():
             raise ResultError(f"{named}: there is no such file; --template takes a TOML file such as {NAME}")

@@ -98,7 +98,7 @@ class Wall:
 
 def wetted(cubes, metal):
     """The part of a stretch of time, and of its faces, for which metal touches a cube, from the shares at its start: the mean of the share
-    there and of the largest beside it, from where the front comes."""
+    there and of the largest next to it, from where the front comes."""
     beside = np.stack([cubes.number(cubes.cells + np.array(side)) for side in SIDES], axis=1)
     return 0.5 * (metal + np.where(beside >= 0, metal[beside], 0).max(axis=1))
 

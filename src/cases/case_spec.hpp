@@ -221,13 +221,13 @@ struct ThermalConditionSpec {
   std::string name, group;
   Kind kind = Kind::temperature;
   // Functions of time, or of position and time.
-  Function temperature;             ///< [K]
-  Function flux;                    ///< into the body [W/m²]
-  Function coefficient;             ///< film [W/(m² K)]; or of the surface's temperature
-  Function emissivity;              ///< [1]; or of the surface's temperature
-  Function ambient;                 ///< [K]
+  Function temperature;  ///< [K]
+  Function flux;         ///< into the body [W/m²]
+  Function coefficient;  ///< film [W/(m² K)]; or of the surface's temperature
+  Function emissivity;   ///< [1]; or of the surface's temperature
+  Function ambient;      ///< [K]
   enum class Sees { ambient, enclosure };
-  Sees sees = Sees::ambient;        ///< of radiation: what the surface sees beside its surroundings
+  Sees sees = Sees::ambient;        ///< of radiation: what the surface sees besides its surroundings
   Function power;                   ///< [W/m³]
   double heat = 0;                  ///< of what burns [J/m³]
   double ignition = 0;              ///< [K]

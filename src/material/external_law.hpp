@@ -32,7 +32,7 @@
 
 namespace solidus::material {
 
-/// `built_in`: a law of the program that works on one point at a time (granular.hpp), which nobody has to
+/// `built_in`: a law of the program that works on one point at a time (granular.hpp), which no user has to
 /// trust.
 enum class ExternalInterface { mfront, umat, built_in };
 

@@ -207,8 +207,8 @@ std::string channel_films_text(const Draft& d) {
   return t;
 }
 
-/// Radiation of a skin in addition to the film of air: of a hot shell, which sees itself and a room, and of the
-/// open tops of risers and cups, where at 1500 °C it takes thirty times as much as the air. Melts of
+/// Radiation of a skin in addition to the film of air: of a hot shell, which sees itself and a room, and of
+/// the open tops of risers and cups, where at 1500 °C it takes thirty times as much as the air. Melts of
 /// iron, copper and their alloys are covered with oxide or slag, those of light metals and zinc with a thin
 /// film of oxide.
 std::string radiation_text(const Draft& d, const std::string& body) {

@@ -80,7 +80,7 @@ class Pattern(ProgramTest):
         self.assertIn("contraction from pattern to casting: x 1.2 %, y 1.2 %, z 1.2 %", said)
         largest = max(max(map(abs, corners)) for corners in points_of_stl(self.folder / "out/pattern_ball.stl"))
         self.assertAlmostEqual(largest, 1e3 * max(max(point) for point in made), delta=1e-5)
-        # The pattern beside the drawing deviates by its allowance, the casting of it does not.
+        # The pattern compared with the drawing deviates by its allowance, the casting of it does not.
         self.done("compare-shape", "out/pattern_ball.stl", "out/run_1", "--nominal", "--as-placed", "-o", "larger")
         larger = json.loads((self.folder / "larger/shape.json").read_text())
         self.assertAlmostEqual(larger["largest[m]"], found["largest_allowance[m]"], delta=0.03 * found["largest_allowance[m]"])

@@ -27,7 +27,7 @@ def main() -> int:
     part = Path(options.part)
     if options.part and not part.exists():
         return _refuse(f"there is no '{options.part}'\n  a part (STEP, BREP, IGES, STL), a mesh, or a case")
-    # A part is worked on in its folder; a case stands in the folder beside its part.
+    # A part is worked on in its folder; a case is in the folder next to its part.
     if part.name == "case.toml":
         part = part.parent
     folder = part.resolve().parent if options.part else Path.cwd()

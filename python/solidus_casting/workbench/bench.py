@@ -216,7 +216,7 @@ class Bench:
         """A case of the part by ``solidus new``, then what ``check`` finds in it."""
         with self._edit(seen) as case:
             if case.part is None:
-                raise InputError("the part of which this case was made is not beside its folder", "a part that is opened")
+                raise InputError("the part of which this case was made is not next to its folder", "a part that is opened")
             words = chosen.words(case.choices, case.part, case.own("feeders.toml"), case.own("made"))
         self._begin("new", "makes the case", lambda job: self._make(job, words))
 

@@ -84,7 +84,7 @@ class _Request(BaseHTTPRequestHandler):
     # Who may ask
 
     def _way(self) -> tuple[str, dict[str, str]] | None:
-        """What is asked for behind the token, and the parameters; nothing where nobody may ask so."""
+        """What is asked for behind the token, and the parameters; nothing where that may not be asked."""
         workbench = self.server.workbench
         if self.headers.get("Host", "") not in workbench.hosts or not self._of_own_page():
             return None

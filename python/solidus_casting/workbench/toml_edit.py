@@ -116,7 +116,7 @@ def _end_of_value(lines: list[str], first: int) -> int:
 
 
 def section_at(text: str, line: int) -> Path:
-    """The path of the statement in a line (from one), or of the section in which the line stands."""
+    """The path of the statement in a line (from one), or of the section in which the line is."""
     path: Path = ()
     for statement in statements(text):
         if statement.first >= line:
@@ -126,7 +126,7 @@ def section_at(text: str, line: int) -> Path:
 
 
 def with_value(text: str, path: Sequence[Any], value: Any) -> str:
-    """The text with a key set: replaced where it stands, else added to its section. Raises :class:`InputError`."""
+    """The text with a key set: replaced where it is, else added to its section. Raises :class:`InputError`."""
     wanted = tuple(path)
     expected = parsed(text)
     _assign(expected, wanted, value)
@@ -233,7 +233,7 @@ def without(text: str, path: Sequence[Any]) -> str:
 
 
 def _comments_above(lines: list[str], header: int) -> Iterator[int]:
-    """Comments that stand directly above a header belong to it, with an empty line above them."""
+    """Comments that are directly above a header belong to it, with an empty line above them."""
     number = header - 1
     while number >= 0 and lines[number].lstrip().startswith("#"):
         yield number

@@ -1,4 +1,4 @@
-"""The folder that the workbench works in: parts, cases beside them, and names that do not lead out of it."""
+"""The folder that the workbench works in: parts, cases next to them, and names that do not lead out of it."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class WorkFolder:
         raise InputError(f"'{given}' is no part and no case", f"a file that ends in {', '.join(PARTS[:6])} …, or a folder with a case.toml")
 
     def _case_of_part(self, part: Path) -> CaseFolder:
-        """The folder of the case of a part: beside it, with its name, or with a number where that is taken by something else."""
+        """The folder of the case of a part: next to it, with its name, or with a number where that is taken by something else."""
         for number in range(1, 100):
             folder = self.folder / (part.stem if number == 1 else f"{part.stem}_{number}")
             if not folder.exists() or (folder / "case.toml").exists() or (folder / "open").exists() or not any(folder.iterdir()):
@@ -52,7 +52,7 @@ class WorkFolder:
         raise InputError(f"there are too many folders that are called {part.stem}", "another name of the part")
 
     def _part_of_case(self, folder: Path) -> Path | None:
-        """The geometry beside the folder, of which the case was made, where it is still there."""
+        """The geometry next to the folder, of which the case was made, where it is still there."""
         beside = [path for path in self.folder.iterdir() if path.suffix.lower() in PARTS and path.is_file() and path.stem == folder.name]
         return beside[0] if beside else None
 

@@ -23,7 +23,7 @@ class CompareShape final : public Verb {
     command().add_flag("--as-placed", as_placed_,
                        "Without a best fit: both are in one system of coordinates");
     command()
-        .add_option("-o,--output", output_, "Folder of what is written; default beside MEASURED")
+        .add_option("-o,--output", output_, "Folder of what is written; default next to MEASURED")
         ->type_name("FOLDER");
   }
   ExitCode run() override {

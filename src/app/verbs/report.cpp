@@ -130,7 +130,8 @@ class Report final : public Verb {
                          "The page; default report.html, or report.pdf, in the first folder");
     command().add_flag("--pdf", pdf_, "Four printed pages of one run for a customer, by a headless Chromium");
     command()
-        .add_option("--template", template_, "Logo and words of --pdf; default customer.toml beside the case")
+        .add_option("--template", template_,
+                    "Logo and words of --pdf; default customer.toml next to the case")
         ->type_name("FILE");
   }
   ExitCode run() override {

@@ -17,7 +17,7 @@ constexpr double k_own_view = 0.1;  // of all that a skin sees: by so much less 
 constexpr Index k_most_faces = 300000;
 
 /// A skin that radiates to surroundings of one temperature and sees itself in their place: it gets back what
-/// it is said to lose.
+/// it loses.
 void skins_that_see_themselves(const cases::CaseSpec& spec, const setup::Assembly& a, Findings& findings) {
   using C = cases::ThermalConditionSpec;
   // All surfaces that radiate to surroundings at the start, since they see each other too.

@@ -1,4 +1,4 @@
-/// The points of a slave that slide over a master: where they stand, which partners they have met, and the
+/// The points of a slave that slide over a master: where they are, which partners they have met, and the
 /// pairs of faces that the graph of the matrix holds for them.
 #pragma once
 

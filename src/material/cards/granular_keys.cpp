@@ -98,7 +98,7 @@ const Section<GranularData>& granular_section() {
 void add_granular(Material& material, const GranularData& data) {
   const std::string of = " of '" + material.name + "'";
   if (!material.mechanical())
-    throw InputError(data.where, "[granular]" + of + " has no elastic properties beside it",
+    throw InputError(data.where, "[granular]" + of + " has no elastic properties in addition",
                      "young_modulus, poisson_ratio and expansion");
   if (material.solidification() != nullptr)
     throw InputError(data.where, "[granular] is no law of a metal that melts, as" + of + " does",

@@ -9,7 +9,7 @@
 namespace solidus::mesh {
 
 /// Nodes are numbered from one in their order, coordinates are in metres with all their digits. An element
-/// stands there once for each group that has it. Groups in `left_out` are not written.
+/// is there once for each group that has it. Groups in `left_out` are not written.
 /// Throws InputError for a name with a quotation mark, which the format cannot hold.
 std::string gmsh_mesh_text(const RawMesh& mesh, const std::set<std::string>& left_out = {});
 

@@ -256,8 +256,8 @@ TEST(ViewFactors, AreThoseOfRoundBodiesAboutAnAxisAndInAPlane) {
   }
 }
 
-/// What looks past another surface loses its rays to the open part. A face of a closed box that is said to be
-/// larger than all that it sees cannot be closed.
+/// What looks past another surface loses its rays to the open part. A face of a closed box that is declared
+/// to be larger than all that it sees cannot be closed.
 TEST(ViewFactors, ThatDoNotCloseAreRefusedWithTheirPlace) {
   Faces open;
   open.add_plate({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 0);

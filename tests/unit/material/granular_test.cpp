@@ -351,7 +351,7 @@ class GranularCards : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  /// What is said about a card with these lines in [granular].
+  /// What is reported about a card with these lines in [granular].
   std::string refusal(const std::string& lines, const std::string& before = "") {
     std::ofstream(folder_ / "sand.toml") << before << R"(
 density = { value = "1500 kg/m3" }
