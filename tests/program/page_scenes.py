@@ -43,6 +43,7 @@ SCENES = {
     "findings.md": Scene(BRACKET, words={"CASE": "bracket"}),
     "getting_started.md": Scene({"bracket.geo": "cases/bracket/bracket.geo", "case.toml": "cases/bracket/case.toml"},
                                 lines=["solidus run case.toml -o results/case/default"]),
+    "heat_treatment.md": Scene({"examples": "examples"}),
     "install.md": Scene({"bracket.step": "cases/bracket_from_step/bracket.step", "aluminium_cylinder": "cases/aluminium_cylinder"},
                         words={"CASE": "hot_spots"}),
     "interfaces.md": Scene(BRACKET),
@@ -50,7 +51,8 @@ SCENES = {
     "materials.md": Scene(texts={"my_alloy.toml": 'title = "My alloy"'}, words={"FILE": "my_alloy.toml"}),
     "new_case.md": Scene({"bracket.step": "cases/bracket_from_step/bracket.step"}),
     "parallel.md": Scene({"case.toml": "cases/hot_spots/case.toml", "hot_spots.geo": "cases/hot_spots/hot_spots.geo"}, end="6 s"),
-    "pattern.md": Scene({**BRACKET, "scan.csv": "examples/scan/scan.csv"}, lines=["solidus run bracket -o results/bracket/default"]),
+    "pattern.md": Scene({**BRACKET, "scan.csv": "examples/scan/scan.csv"}, lines=["solidus run bracket -o results/bracket/default"],
+                        words={"CASE": "bracket"}),
     "plots.md": Scene({"case.toml": "cases/hot_spots/case.toml", "hot_spots.geo": "cases/hot_spots/hot_spots.geo"},
                       lines=["solidus run case.toml -o results/case/default"], words={"CASE": "case.toml", "RESULTS_DIR": "results/case/default"}),
     "point.md": Scene(words={"FILE": "cases/point/tensile.toml", "RESULTS_DIR": "results/point/tensile"}),
@@ -70,6 +72,8 @@ SCENES = {
 
 # Commands that no test of a page types, and what runs them instead.
 ELSEWHERE = {
+    "solidus compare-shape MEASURED SHAPE": "tests/program/pattern_shape_test.py",
+    "python3 examples/heat_treatment/after_stages.py results/disc": "tests/program/heat_treatment_test.py",
     "./dev test": "the suite itself",
     "./dev docs --site": "tests/python/site_test.py",
     "./dev release": "the same build, packed by tests/program/archive_test.py",

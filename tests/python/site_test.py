@@ -58,6 +58,7 @@ TASKS = {
     "formats": ["read a mesh of another program", "Abaqus, Nastran or UNV mesh", "import a Nastran mesh"],
     "gas": ["gas pores from hydrogen", "hydrogen porosity in aluminium", "nitrogen blowholes in steel"],
     "getting_started": ["build from the sources", "compile Solidus", "build Solidus myself"],
+    "heat_treatment": ["quench a casting in water", "solution treatment and ageing", "stress relief annealing"],
     "heat_through_contact": ["heat through an air gap", "heat transfer coefficient between casting and mould", "heat transfer coefficient of a die coating"],
     "install": ["install on Debian", "install the Debian package", "how to install on Ubuntu"],
     "interfaces": ["find the faces between casting and mould", "interface between bodies of a STEP file", "interfaces found automatically"],
