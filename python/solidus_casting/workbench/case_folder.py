@@ -199,12 +199,14 @@ class CaseFolder:
         """Gives the folder back, and takes away what only told the address; a case that was looked at alone is left as it was."""
         if self._lock is None:
             return
-        self._own("address").unlink(missing_ok=True)
-        self._close()
         try:
-            self._own("").rmdir()
+            # Where the folder was taken away and made again meanwhile the file is that of another server.
+            if self._own("address").stat().st_ino == os.fstat(self._lock).st_ino:
+                self._own("address").unlink()
+                self._own("").rmdir()
         except OSError:
-            pass  # it holds choices or a history
+            pass  # it holds choices or a history, or is gone
+        self._close()
 
     def _close(self) -> None:
         if self._lock is not None:
