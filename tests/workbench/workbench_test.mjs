@@ -82,7 +82,7 @@ async function ofACase(server, desk) {
   await desk.click("#run");
   await desk.until("!!document.querySelector('#report-run_1')", 120);
   await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
-  check("a run ends in its report, beside the steps", true);
+  check("a run ends in its report, next to the steps", true);
   check("titles go in as text", await desk.page.run("document.querySelector('#report-frame').contentDocument.querySelector('h1').textContent") === "A <b>block</b>");
 }
 
@@ -132,7 +132,7 @@ async function ofPages(server, browser, desk) {
   await other.click("#compare");
   await other.until("solidus.state.compared", 120);
   await other.until("document.querySelectorAll('#compared-answers tr').length > 2 && !document.querySelector('#tab-compared').hidden");
-  check("two runs are compared: answers beside each other, and the report of both", (await server.state()).compared.answers.length > 1);
+  check("two runs are compared: answers next to each other, and the report of both", (await server.state()).compared.answers.length > 1);
   for (const d of [desk, other]) check("no page complains", d.page.messages.every((m) => /400|409/.test(m)), d.page.messages);
 }
 

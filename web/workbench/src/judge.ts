@@ -101,7 +101,7 @@ export class Judge {
     ];
   }
 
-  /** Answers of two runs beside each other. */
+  /** Answers of two runs next to each other. */
   compared(state: State): Children {
     const c = state.compared;
     if (!c) return [h("p", { class: "hint" }, "Choose two runs on the left and compare them.")];

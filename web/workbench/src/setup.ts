@@ -46,7 +46,7 @@ export class Setup {
     const choices = state.choices, bodies = this.partBodies(), busy = !!state.job;
     const roles = ["", ...this.desk.about.roles].map((r): [string, string] => [r, r || "by its name"]);
     return [
-      h("p", {}, state.name ? h("b", {}, state.part ?? `${state.name} (the part is not beside it)`) : "Nothing is open.", state.name ? h("small", {}, ` in ${state.folder}`) : null),
+      h("p", {}, state.name ? h("b", {}, state.part ?? `${state.name} (the part is not next to it)`) : "Nothing is open.", state.name ? h("small", {}, ` in ${state.folder}`) : null),
       h("div", { class: "buttons" },
         h("button", { id: "load", disabled: busy, click: () => byId("file").click() }, "Load a file …"),
         h("button", { id: "choose-file", disabled: busy, click: () => void this.chooseFile() }, "Open one of this folder …")),
@@ -71,7 +71,7 @@ export class Setup {
   /** 2: how it is cast. */
   casting(state: State): Children {
     const c = state.choices, { about } = this.desk, busy = !!state.job;
-    if (!c || !state.part) return [h("p", { class: "hint" }, state.name ? "This case stands for itself: the part of which it was made is not beside it." : "Open a part first.")];
+    if (!c || !state.part) return [h("p", { class: "hint" }, state.name ? "This case stands for itself: the part of which it was made is not next to it." : "Open a part first.")];
     const alloys = about.materials.filter((m) => m.alloy).map((m): [string, string] => [m.name, m.title]);
     const fine: [string, string][] = [["0.7", "coarse, quick"], ["1", "as usual"], ["1.4", "fine"], ["2", "very fine, slow"]];
     if (!fine.some(([v]) => +v === c.fineness)) fine.push([String(c.fineness), `${c.fineness} times`]);
