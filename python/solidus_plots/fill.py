@@ -132,7 +132,7 @@ def write_case(folder, mould, melt, flow, processes):
     write_mesh(folder, cavity.cubes, [(name, kind, cavity.faces[faces], cavity.directions[faces]) for name, kind, faces in patches])
     dictionaries.write_fields(folder, flow, {wall.name: dictionaries.wall_entry(0.0, wall.mould, flow.air) for wall in mould.walls})
     dictionaries.write_materials(folder, melt, flow)
-    dictionaries.write_numerics(folder, processes)
+    dictionaries.write_numerics(folder, processes, int(np.ptp(cavity.cubes.cells, axis=0).argmax()))
     dictionaries.write_control(folder, flow, mould.time / FRAMES, mould.time / FRAMES)
 
 

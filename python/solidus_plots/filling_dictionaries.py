@@ -211,7 +211,8 @@ maxDi 1e6;
 """)
 
 
-def write_numerics(folder, processes=1):
+def write_numerics(folder, processes=1, axis=0):
+    """Schemes, solvers, and the parts for processes: slices of as many cubes across an axis, since Debian's openfoam has no scotch."""
     pairs = " ".join(f"({a} and {b}) {c:g}" for a, b, c in (
         ("gas", "melt", COMPRESSION), ("gas", "solid", 0), ("melt", "solid", 0)))
     dictionary(folder, "system/fvSchemes", """ddtSchemes { default Euler; }
@@ -248,4 +249,6 @@ fluxRequired { default no; p_rgh; "alpha.*"; }
 PIMPLE {{ momentumPredictor no; nOuterCorrectors 1; nCorrectors 3; nNonOrthogonalCorrectors 0; }}
 relaxationFactors {{ equations {{ ".*" 1; }} }}
 """)
-    dictionary(folder, "system/decomposeParDict", f"numberOfSubdomains {processes};\nmethod scotch;\n")
+    counts = " ".join(str(processes if d == axis else 1) for d in range(3))
+    dictionary(folder, "system/decomposeParDict", f"numberOfSubdomains {processes};\nmethod simple;\n"
+               f"simpleCoeffs {{ n ({counts}); delta 0.001; }}\n")

@@ -177,6 +177,14 @@ class Vents(unittest.TestCase):
         text = dictionaries.vent_velocity(np.array([[0, 0, 0.5], [0, -0.25, 0]]))
         self.assertEqual(filling_flow.values_in(text[text.index("value ") + 6:], 2).tolist(), [[0, 0, 0.5], [0, -0.25, 0]])
 
+    def test_processes_get_slices_across_an_axis(self):
+        """Debian's openfoam comes without the library of scotch."""
+        with tempfile.TemporaryDirectory() as name:
+            dictionaries.write_numerics(Path(name), 3, axis=1)
+            text = (Path(name) / "system/decomposeParDict").read_text()
+        self.assertIn("method simple;", text)
+        self.assertIn("n (1 3 1);", text)
+
     def test_no_function_object_and_no_expression(self):
         """Debian 13's build of OpenFOAM 1912 ends at the first of them."""
         with tempfile.TemporaryDirectory() as name:
