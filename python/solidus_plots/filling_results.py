@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from solidus_plots import filling_picture
+from solidus_plots import filling_film, filling_picture
 from solidus_plots.compare import write_csv
 from solidus_plots.filling_mesh import HEADER, SIDES, Cubes, corners_of, write_mesh
 from solidus_plots.vtu import Grid
@@ -228,4 +228,5 @@ def write(folder, mould, melt, history, ended, seconds):
                "answers": lines}
     (folder / "filling.json").write_text(json.dumps(summary, indent=2) + "\n")
     filling_picture.draw(folder / "filling.png", mould, grid)
+    filling_film.draw(folder / "filling.gif", mould, [row[0] for row in history.rows], history.levels)
     return "\n".join(lines) + f"\nFilling in {folder}, in {seconds:.0f} s."

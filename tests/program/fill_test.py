@@ -35,6 +35,7 @@ class FillTest(ProgramTest):
         filled = self.folder / "filled"
         summary = json.loads((filled / "filling.json").read_text())
         self.assertIn("filled after", text)
+        self.assertEqual((filled / "filling.gif").read_bytes()[:4], b"GIF8")
         self.assertGreater(summary["full"], 0.98)
         # Volume and heat: what came against what is there, what the metal has lost against what walls have taken.
         balance = summary["balance"]

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 from solidus_plots import filling_dictionaries as dictionaries
-from solidus_plots import filling_flow, filling_gates, filling_walls
+from solidus_plots import filling_film, filling_flow, filling_gates, filling_walls
 from solidus_plots.filling_cavity import cavity_of
 from solidus_plots.filling_history import full_volume
 from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
@@ -102,6 +102,21 @@ class Gates(unittest.TestCase):
         gate = filling_gates.gate_of(cavity, {"gate_at": [0.03, 0.04, 0.06], "gate_width": 0.02}, [], UP, 1e-4)
         self.assertEqual(gate.direction.tolist(), [1, 0, 0])
         self.assertAlmostEqual(cavity.face_centres()[gate.faces][:, 2].mean(), 0.06, delta=0.003)
+
+
+class Films(unittest.TestCase):
+    def test_a_film_shows_an_upright_layer(self):
+        cavity = plate()
+        self.assertEqual(filling_film.upright_plane(cavity, UP)[0], 1)
+        self.assertEqual(filling_film.upright_plane(cavity, np.array([0.0, 1.0, 0.0]))[0], 2)
+
+    def test_a_film_is_written(self):
+        cavity = plate(0.01)
+        mould = SimpleNamespace(cavity=cavity, up=UP, gate=SimpleNamespace(faces=np.array([0])))
+        with tempfile.TemporaryDirectory() as name:
+            levels = [np.full(len(cavity.cubes.cells), level, np.uint8) for level in (0, 128, 255)]
+            filling_film.draw(Path(name) / "filling.gif", mould, [0.1, 0.2, 0.3], levels)
+            self.assertEqual((Path(name) / "filling.gif").read_bytes()[:4], b"GIF8")
 
 
 class Walls(unittest.TestCase):
