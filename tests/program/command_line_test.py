@@ -188,7 +188,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(completed("solidus", "run", "--res"), ["--restart"])
         self.assertIn("time.step=", completed("solidus", "run", "--set", "time.st"))
         self.assertIn("time.step", completed("solidus", "explain", "time.st"))
-        self.assertEqual(completed("solidus", "materials", "green"), ["green_sand"])
+        self.assertEqual(completed("solidus", "materials", "green"), ["green_sand", "green_sand_yielding"])
         self.assertEqual(completed("solidus", "completion", "z"), ["zsh"])
 
     def test_zsh_completes_too(self):
