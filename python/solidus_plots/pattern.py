@@ -112,12 +112,10 @@ class Part:
         return found
 
 
-def without_motion(missed, drawn, held, dimension):
+def without_motion(missed, drawn, held):
     """What the casting misses, without the motions as a whole that the case leaves it."""
     if held:
         return missed
-    if dimension == 2:
-        missed = missed.copy()
     motion = shape_fit.of_pairs(drawn + missed, drawn)
     return motion(drawn + missed) - drawn
 
@@ -129,7 +127,9 @@ class Search:
         self.case, self.mesh = case, DrawnMesh(case.folder / "drawing.msh")
         self.points, self.options = self.mesh.points.copy(), options
         self.rows, self.part, self.missed = [], None, None
-        self.dimension = 3 if case.document.get("analysis", {}).get("kind") == "solid" else 2
+        kind = case.document.get("analysis", {}).get("kind")
+        if kind != "solid":
+            raise ResultError(f"a pattern is made for a part in three dimensions; the case has analysis.kind = \"{kind}\", not \"solid\"")
         self._followers, self._roles = None, {}
 
     def run(self):
@@ -139,10 +139,10 @@ class Search:
             self.part = Part(results, self.points, self.options.body)
             self._roles = self.part.roles()
             drawn = self.mesh.points[self.part.number[self.part.nodes]]
-            held = held_planes(self.case.document, self.mesh, self.part.number[self.part.nodes], self.dimension)
+            held = held_planes(self.case.document, self.mesh, self.part.number[self.part.nodes])
             moved = self.part.movement(held)
             cast = (self.part.grid.points + moved)[self.part.nodes]
-            self.missed = without_motion(cast - drawn, drawn, held, self.dimension)
+            self.missed = without_motion(cast - drawn, drawn, held)
             self.moved = moved[self.part.nodes]
             size = np.ptp(drawn, axis=0).max()
             self.tolerance = length(self.options.tolerance) if self.options.tolerance else TOLERANCE * size
@@ -192,10 +192,9 @@ def contraction(search):
     pattern = search.part.grid.points[search.part.nodes]
     cast = search.moved
     _, gradient = affine(pattern, cast)
-    axes = np.diag(gradient)[:search.dimension]
+    axes = np.diag(gradient)
     middle = pattern.mean(axis=0)
-    scaled = np.zeros_like(pattern)
-    scaled[:, :search.dimension] = axes * (pattern - middle)[:, :search.dimension]
+    scaled = axes * (pattern - middle)
     rest = shape_fit.of_pairs(pattern + cast, pattern + scaled)(pattern + cast) - pattern - scaled
     return -axes, float(np.linalg.norm(rest, axis=1).max())
 
@@ -212,20 +211,16 @@ def write(search, met):
     write_grid(folder / "pattern.vtu", grid)
     search.mesh.write(folder / "pattern.msh", search.points)
     axes, rest = contraction(search)
-    names = "xyz" if search.dimension == 3 else ("rz" if search.case.document["analysis"]["kind"] == "axisymmetric" else "xy")
+    names = "xyz"
     found = {"met": met, "tolerance[m]": search.tolerance, "runs": search.rows, "bodies": part.names,
              "contraction[%]": {name: 100 * float(value) for name, value in zip(names, axes)},
              "left_by_scales[m]": rest, "largest_allowance[m]": float(np.linalg.norm(allowance[part.nodes], axis=1).max())}
     (folder / "pattern.json").write_text(json.dumps(found, indent=2) + "\n")
     lines = ["contraction from pattern to casting: " + ", ".join(f"{name} {100 * value:.4g} %" for name, value in zip(names, axes))
              + f"; a scale for each axis alone would miss by {1e3 * rest:.3g} mm"]
-    files = ["pattern.msh", "pattern.vtu", "pattern.json"]
-    if search.dimension == 3:
-        files += write_skins(search, folder)
-        style.setup()
-        files += [file.name for file in pattern_picture.draw_pattern(part, drawn, allowance, folder)]
-    else:
-        lines.append("a plane mesh has no skin of triangles: no STL is written")
+    files = ["pattern.msh", "pattern.vtu", "pattern.json", *write_skins(search, folder)]
+    style.setup()
+    files += [file.name for file in pattern_picture.draw_pattern(part, drawn, allowance, folder)]
     hottest = part.grid.point_data["temperature"][part.nodes].max() - 273.15 if "temperature" in part.grid.point_data else 0.0
     if hottest > COLD:
         lines.append(f"the casting is still up to {hottest:.0f} degC hot when the run ends: what it contracts by from there on is not in the pattern "

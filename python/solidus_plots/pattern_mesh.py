@@ -87,7 +87,7 @@ class Followers:
         return points
 
 
-def held_planes(document, drawn_mesh, part_nodes, dimension):
+def held_planes(document, drawn_mesh, part_nodes):
     """Planes across an axis in which the case holds the part: (axis, coordinate) from its prescribed displacements."""
     planes, mine = [], np.zeros(len(drawn_mesh.points), bool)
     mine[part_nodes] = True
@@ -102,7 +102,7 @@ def held_planes(document, drawn_mesh, part_nodes, dimension):
         for group in groups:
             nodes = drawn_mesh.nodes_of(group)
             nodes = nodes[mine[nodes]]
-            for axis in range(dimension):
+            for axis in range(3):
                 if nodes.size and condition.get(names[axis]) is not None:
                     coordinates = drawn_mesh.points[nodes, axis]
                     planes.append((axis, float(coordinates.mean()) if np.ptp(coordinates) < 1e-9 else None))

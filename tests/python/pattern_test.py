@@ -132,6 +132,14 @@ class Patterns(unittest.TestCase):
         np.testing.assert_allclose(found, gradient, atol=1e-12)
         np.testing.assert_allclose(function(np.zeros((1, 3))), 1, atol=1e-12)
 
+    def test_a_case_in_the_plane_is_refused_before_it_runs(self):
+        with tempfile.TemporaryDirectory() as name:
+            Path(name, "drawing.msh").write_text(msh(box(HEX, SIZE, (1, 1, 1)), {}))
+            Path(name, "drawing.toml").write_text('title = "a"\n\n[analysis]\nkind = "plane_strain"\n\n[mesh]\nfile = "x.msh"\n')
+            with self.assertRaises(ResultError) as raised:
+                pattern.Search(pattern.Case(Path(name)), None)
+            self.assertIn("analysis.kind = \"plane_strain\"", str(raised.exception))
+
 
 if __name__ == "__main__":
     unittest.main()
