@@ -17,6 +17,7 @@ from fragments import fits
 from pages import blocks, commands, is_pattern
 from program import SOURCES, ProgramTest, solidus
 from solidus_plots.calibrate_file import read_calibration
+from solidus_plots.customer_template import read_template
 from solidus_plots.plots_file import read_spec
 from solidus_plots.study_file import read_study
 
@@ -118,6 +119,9 @@ class Guide(ProgramTest):
                         read_study(self.write("study.toml", block.text))
                     elif page.name == "calibrate.md":
                         read_calibration(self.write("calibrate.toml", block.text))
+                    elif page.name == "customer.md":
+                        self.write("logo.svg", "<svg/>")
+                        read_template(self.write("customer.toml", block.text))
                     elif set(fragment) <= {"part", "variant"}:  # sections of a case under names of their own
                         for pieces in fragment.values():
                             for piece in pieces.values():

@@ -25,12 +25,14 @@ namespace fs = std::filesystem;
 /// Writes the mesh of the drawing with the groups of the case, and the resolved case.
 void write_drawing(const setup::Case& c, const fs::path& folder) {
   const setup::MadeMesh made = setup::make_mesh(c.spec);
-  // Surfaces that interfaces have found are found again in every run.
+  // Surfaces that interfaces have found are found again in every run, and so is what faces no other body.
   std::set<std::string> found;
   for (const setup::FoundInterface& interface : made.interfaces) {
     found.insert(interface.surface_a);
     found.insert(interface.surface_b);
   }
+  if (!c.spec.interfaces.empty())
+    for (const cases::BodySpec& body : c.spec.bodies) found.insert(body.name + "_free");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
@@ -71,6 +73,11 @@ class Pattern final : public Verb {
     if (!c.spec.has_mechanics())
       throw InputError({case_.path, 0, 0}, "the case computes heat alone: nothing deforms",
                        "analysis.physics = \"thermomechanical\"");
+    // The runs read the mesh from a file, which does not tell the plane from what is free.
+    if (c.spec.mesh.symmetry && !c.spec.interfaces.empty())
+      throw InputError({case_.path, 0, 0},
+                       "the part is cut at a plane of symmetry, and its faces are found by [[interface]]",
+                       "the whole part, or [[contact]] with groups of the mesh");
     const fs::path folder = output_.empty()
                                 ? results_root() / results::default_run_folder(c.file, c.variant) / "pattern"
                                 : fs::path(output_);
