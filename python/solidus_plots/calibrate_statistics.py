@@ -86,7 +86,7 @@ def combinations(jacobian, size, scale):
 
 def named(direction, names):
     """The unknowns of a combination with their signs, the largest first; those that weigh alike as they were given."""
-    order = sorted(range(len(direction)), key=lambda i: (-round(abs(float(direction[i])), 6), i))
+    order = sorted(range(len(direction)), key=lambda i: (-round(abs(float(direction[i])), 3), i))
     sign = np.sign(direction[order[0]])
     return {names[i]: float(sign * direction[i]) for i in order if abs(direction[i]) >= MUCH}
 

@@ -296,7 +296,7 @@ unit = "1"
         self.measure("case.toml", ("T_centre", "T_wall"))
         result = solidus("calibrate", "case.toml", "measured.csv", "-o", "out", cwd=self.folder)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("the readings depend on 'film' and 'emissivity' through one combination of them", result.stderr)
+        self.assertIn("the readings depend on 'emissivity' and 'film' through one combination of them", result.stderr)
         result = solidus("calibrate", "case.toml", "measured.csv", "--set", "time.end=20 s", cwd=self.folder)
         self.assertEqual(result.returncode, 1)
         self.assertIn("measured.csv:13: 22 s of the logger is 22 s of the case, which ends at 20 s", result.stderr)
