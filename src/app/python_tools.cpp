@@ -49,7 +49,7 @@ extern "C" void hand_on(int signal) {
   if (child_to_tell > 0) kill(child_to_tell, signal);
 }
 
-/// What signals do while a child is waited for. Ctrl-C reaches the child too, which may have runs to stop
+/// Handlers of signals while a child is waited for. Ctrl-C reaches the child too, which may have runs to stop
 /// first: it is ignored here. The end of a batch job reaches this program alone, and is handed on to the
 /// child.
 class SignalsOfChild {
@@ -78,7 +78,7 @@ class SignalsOfChild {
 /// Starts a program, which has signals as they are by default, and waits for its end. Returns its status as
 /// waitpid() does, or nothing where waiting failed. Throws InputError where it cannot be started.
 std::optional<int> status_of(const std::string& program, char* const* argv, char* const* envp) {
-  // What signals did before they do again afterwards, since a run may follow.
+  // The handlers of before come back afterwards, since a run may follow.
   const SignalsOfChild signals;
   sigset_t by_default;
   sigemptyset(&by_default);

@@ -87,7 +87,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
       part.place = mesh_.x[i];
       part.top = graph_.high(i);
       part.body = body_[i];
-      // Of a pipe the deepest place counts: its bottom is where the level lies within the node's height,
+      // A pipe is told by its deepest place: its bottom is where the level lies within the node's height,
       // and the place is moved to it along the vertical.
       if (kind == Kind::pipe) {
         const double drained = std::clamp(rows(i, k_drained), 0.0, 1.0);

@@ -1,9 +1,11 @@
-/// Boxes of elements in an R-tree come by their distance, so that the search ends as soon as no box can
-/// hold a nearer element.
+/// Boxes of elements in an R-tree: one of the nearest gives a bound, and those within it come by their
+/// distance, so that the search ends as soon as no box can hold a nearer element.
 #include "mesh/element_search.hpp"
 
+#include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -43,19 +45,32 @@ ElementSearch::Found ElementSearch::find(const Point& point) const {
   NearestPlace best;
   Tree::Element answers{};
   const TreePoint at(point[0], point[1], point[2]);
-  // Boxes come by rising distance, a lower bound of that to their elements.
-  const auto& boxes = tree_->boxes;
-  for (auto entry = boxes.qbegin(bg::index::nearest(at, static_cast<unsigned>(boxes.size())));
-       entry != boxes.qend(); ++entry) {
-    if (bg::distance(at, entry->first) > best.distance) break;
-    const Tree::Element element = entry->second;
+  // At equal distance the lower element wins, whatever the tree's order.
+  const auto look = [&](const Tree::Element& element) {
     const ElementBlock& block = mesh_.blocks[element.block];
-    // The nearest place within the element; at equal distance the lower element wins, whatever the
-    // tree's order.
     NearestPlace here = nearest_place(mesh_, block.shape, block.element(element.element), point);
-    if (here.distance > best.distance || (here.distance == best.distance && answers < element)) continue;
+    if (here.distance > best.distance || (here.distance == best.distance && answers < element)) return;
     best = std::move(here);
     answers = element;
+  };
+  // The element of one of the nearest boxes says how far away the answer can be.
+  std::vector<Tree::Entry> entries;
+  tree_->boxes.query(bg::index::nearest(at, 1U), std::back_inserter(entries));
+  if (!entries.empty()) look(entries.front().second);
+  // All boxes that reach so near are looked at by rising distance, a lower bound of that to their elements.
+  // (One query of the tree that goes on from box to box sorts all that it has met again at each step.)
+  const double reach = best.distance;
+  entries.clear();
+  tree_->boxes.query(
+      bg::index::intersects(TreeBox(TreePoint(point[0] - reach, point[1] - reach, point[2] - reach),
+                                    TreePoint(point[0] + reach, point[1] + reach, point[2] + reach))),
+      std::back_inserter(entries));
+  std::vector<std::pair<double, Tree::Element>> near;
+  for (const Tree::Entry& entry : entries) near.emplace_back(bg::distance(at, entry.first), entry.second);
+  std::sort(near.begin(), near.end());
+  for (const auto& [distance, element] : near) {
+    if (distance > best.distance) break;
+    look(element);
   }
   // Shape functions at that place are the weights of its nodes.
   Found found;

@@ -74,7 +74,7 @@ std::vector<std::string> bodies_of(const NamedMesh& named, const std::string& pa
 
 constexpr const char* k_faces = "faces.vtk";
 
-/// What is written of the faces in addition to the table; empty paths: nothing.
+/// Files of the faces that are written in addition to the table; empty paths: none.
 struct FaceFiles {
   std::filesystem::path pictures;  ///< folder for pictures of the faces by number, and for their file
   std::filesystem::path faces;     ///< the file alone

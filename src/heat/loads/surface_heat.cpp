@@ -150,7 +150,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
 
 void SurfaceHeat::set_window(const LoadWindow& window) {
   if (!load_) law_.set_window(window);
-  // What has not been irradiated yet sees the opening.
+  // A surface that has not been irradiated yet sees the opening.
   if (law_.enclosed() && !law_.has_values()) {
     const double c = law_.factor();
     law_.set_values(std::vector<LoadValues>(point_nodes_.size(), {c, c * law_.environment()}));
