@@ -17,6 +17,16 @@ TEST(FeedingLaw, OfALinearSolidFractionIsTheClosedForm) {
     EXPECT_NEAR(law.resistance(g), 180 * (1 / g - g + 2 * std::log(g)), 1e-9 * (1 + law.resistance(g)));
 }
 
+// Ny* of K. D. Carlson and C. Beckermann (Metall. Mater. Trans. A 40 (2009) 163) for the melt that is left
+// when pores open.
+TEST(FeedingLaw, HasTheNumbersOfCarlsonAndBeckermann) {
+  const FeedingLaw law = *FeedingLaw::of(test::metal(40));
+  const struct {
+    double left, number;
+  } rows[] = {{0.3, 10.610}, {0.2, 16.870}, {0.1, 30.872}, {0.05, 50.125}, {0.01, 127.829}};
+  for (const auto& [left, number] : rows) EXPECT_NEAR(std::sqrt(law.resistance(left)), number, 6e-4) << left;
+}
+
 TEST(FeedingLaw, FindsThePoresThatBelongToItsNumber) {
   const FeedingLaw law = *FeedingLaw::of(test::metal(40));
   for (const double g : {0.01, 0.1, 0.3, 0.9})
