@@ -96,9 +96,28 @@ def width(history, temperature):
     return math.nan
 
 
+def fall_between(history, column, of, start, end):
+    """What `column` loses while `of` cools from `start` to `end`, by straight lines between the rows of the history."""
+    for name in (column, of):
+        if name not in history:
+            raise ValueError(f"there is no column '{name}' in history.csv; there are {', '.join(history)}")
+    found = []
+    for value in (start, end):
+        rows = [i for i in range(1, len(history[of])) if history[of][i - 1] > value >= history[of][i]]
+        if not rows:
+            raise ValueError(f"'{of}' does not cool past {value:g} in the run")
+        last, now = history[of][rows[0] - 1], history[of][rows[0]]
+        share = (last - value) / (last - now)
+        found.append(history[column][rows[0] - 1] * (1 - share) + history[column][rows[0]] * share)
+    return found[0] - found[1]
+
+
 def answer(row, history, factor):
     if row["column"].startswith("width at "):
         return width(history, float(row["column"].split()[2])) * factor
+    between = re.fullmatch(r"fall of (.+) from ([-\d.]+) to ([-\d.]+) of (.+)", row["column"])
+    if between:
+        return fall_between(history, between[1], between[4], float(between[2]), float(between[3])) * factor
     what, column = re.match(r"(largest of |fall of |)(.*)", row["column"]).groups()
     if column not in history:
         raise ValueError(f"there is no column '{column}' in history.csv; there are {', '.join(history)}")
@@ -185,13 +204,19 @@ def summary(values):
     """Computed against measured in a sentence of figures."""
     if "deviation" in values[0]:
         return ", ".join(f"{row['name']}: {row['deviation']:.2g} K" for row in values) + " (root mean square)"
+    inside = sum(abs(row["computed"] - row["measured"]) <= row["error"] + row["computed_error"] for row in values)
+    units = dict.fromkeys(row["unit"] for row in values)
+    parts = [spread([row for row in values if row["unit"] == unit], unit) for unit in units]
+    return f"{', '.join(parts)}; {inside} of {len(values)} within both errors"
+
+
+def spread(values, unit):
+    """How far numbers of one unit are off."""
     off = [row["computed"] - row["measured"] for row in values]
     rms, mean = math.sqrt(sum(d * d for d in off) / len(off)), sum(off) / len(off)
     size = sum(abs(row["measured"]) for row in values) / len(values)
-    inside = sum(abs(d) <= row["error"] + row["computed_error"] for d, row in zip(off, values))
-    unit = "K" if values[0]["unit"] == "degC" else values[0]["unit"]
-    return (f"{rms:.2g} {unit} root mean square ({100 * rms / size:.2g} % of the mean), {mean:+.2g} on average; "
-            f"{inside} of {len(values)} within both errors")
+    unit = "K" if unit == "degC" else unit
+    return f"{rms:.2g} {unit} root mean square ({100 * rms / size:.2g} % of the mean), {mean:+.2g} on average"
 
 
 def table(values):
@@ -242,7 +267,7 @@ def heading(title):
 def draw():
     """All numbers that were computed over those that were measured, an experiment a colour: docs/validation/images/wall.png."""
     from solidus_plots import style
-    figure, axes = style.plt.subplots(figsize=(7.0, 3.6))
+    figure, axes = style.plt.subplots(figsize=(7.0, 4.2))
     kept, there, place = json.loads((FOLDER / "wall.json").read_text()), experiments(), 0
     for name, spec in there.items():
         values = [row for row in kept.get(name, {"values": []})["values"] if "computed" in row]
@@ -256,7 +281,7 @@ def draw():
     axes.axhline(1, color="0.5", linewidth=0.8)
     axes.set(ylabel="computed / measured", xticks=[])
     axes.set_title("The wall of experiments: every number", loc="left")
-    axes.legend(fontsize=7, loc="best")
+    axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncol=2, frameon=False)
     figure.tight_layout()
     figure.savefig(FOLDER / "images" / "wall.png", dpi=110, metadata={"Software": None})
 

@@ -16,11 +16,11 @@ class Wall(ProgramTest):
         self.assertEqual(wall.page(), (SOURCES / "docs/validation/wall.md").read_text())
         kept = json.loads((SOURCES / "docs/validation/wall.json").read_text())
         self.assertEqual(list(kept), list(wall.experiments()))
-        self.assertGreaterEqual(len(kept), 6)
+        self.assertGreaterEqual(len(kept), 8)
 
     def test_quick_rows_come_out_again(self):
         kept = json.loads((SOURCES / "docs/validation/wall.json").read_text())
-        for name in ("contraction", "liquidus", "iron_density"):
+        for name in ("contraction", "arm_spacing", "liquidus", "iron_density"):
             spec, program = wall.experiments()[name], wall.Program(PROGRAM)
             found = wall.COMPUTE[spec["kind"]](spec, program, Path(self.folder))
             for now, then in zip(found, kept[name]["values"], strict=True):
@@ -30,6 +30,21 @@ class Wall(ProgramTest):
     def test_a_width_lies_between_two_probes(self):
         history = {"T_0um[degC]": [20, 1800, 900], "T_25um[degC]": [20, 1400, 900], "T_37.5um[degC]": [20, 1200, 900], "time[s]": [0, 1, 2]}
         self.assertAlmostEqual(wall.width(history, 1300), 2 * 31.25)
+
+    def test_what_is_lost_between_two_temperatures_is_between_rows(self):
+        history = {"end[mm]": [0.0, -1.0, -3.0, -7.0], "T[degC]": [600, 500, 300, 100]}
+        row = {"column": "fall of end[mm] from 550 to 200 of T[degC]"}
+        self.assertAlmostEqual(wall.answer(row, history, 2), 2 * (5.0 - 0.5))
+        with self.assertRaisesRegex(ValueError, r"'T\[degC\]' does not cool past 50 in the run"):
+            wall.answer({"column": "fall of end[mm] from 550 to 50 of T[degC]"}, history, 1)
+        with self.assertRaisesRegex(ValueError, "there is no column 'length'"):
+            wall.answer({"column": "fall of length from 550 to 50 of T[degC]"}, history, 1)
+
+    def test_each_unit_has_its_own_figures(self):
+        values = [{"unit": unit, "measured": 10.0, "error": 1.0, "computed": computed, "computed_error": 0.0}
+                  for unit, computed in (("N", 12.0), ("mm", 10.5))]
+        self.assertEqual(wall.summary(values), "2 N root mean square (20 % of the mean), +2 on average, 0.5 mm root mean square "
+                                               "(5 % of the mean), +0.5 on average; 1 of 2 within both errors")
 
     def test_mistakes_are_said_with_their_file(self):
         file = self.write("experiment.toml", 'title = "a"\norder = 1\nkinds = "values"\n')
