@@ -78,16 +78,17 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   return report;
 }
 
-/// The solution of the steady balance, with what surfaces that see each other radiate in turns.
+/// The solution of the steady balance, with what surfaces that see each other radiate by fixed-point
+/// iteration.
 linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temperature, std::span<double> r) {
   HeatParts& parts = system_->parts();
   if (!parts.enclosed.any()) return solve_temperature(temperature, r);
   parts.enclosed.begin(parts.surfaces, temperature);
   linear::NewtonReport report;
   std::vector<double> left(r.size());
-  for (int turn = 1; turn <= k_most_turns; ++turn) {
+  for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
     linear::NewtonReport last = solve_temperature(temperature, r);
-    if (turn > 1)
+    if (iteration > 1)
       add_iterations(report, std::move(last));
     else
       report = std::move(last);
@@ -98,8 +99,8 @@ linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temper
 
 void ThermalPhase::reject_radiation(double tolerance) {
   throw StepRejected(fmt::format("heat: what surfaces radiate to each other has not settled to {:g} K in {} "
-                                 "turns",
-                                 tolerance, k_most_turns),
+                                 "iterations",
+                                 tolerance, k_most_radiation_iterations),
                      {}, Failure::heat);
 }
 

@@ -195,9 +195,9 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
 }
 
 /// Solves the balance of a stage from H* of `from`. Where surfaces see each other, what falls on them follows
-/// from the temperatures that it makes: both are found in turns.
-/// Returns what the last turn's exchange brings the nodes beyond the one that they were solved with, [owned
-/// node] [W]; empty where no surfaces see each other.
+/// from the temperatures that it makes: both are found by fixed-point iteration.
+/// Returns what the last iteration's exchange brings the nodes beyond the one that they were solved with,
+/// [owned node] [W]; empty where no surfaces see each other.
 std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from, double dt,
                                                 const ThermalState& before, const ThermalState& old,
                                                 const ThermalPass& pass, ThermalState& next,
@@ -206,13 +206,13 @@ std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from,
   const bool enclosed = parts.enclosed.any() && !pass.adiabatic;
   std::vector<double> radiated(enclosed ? at(mesh_.n_owned_nodes) : 0);
   if (enclosed) parts.enclosed.begin(parts.surfaces, next.temperature);
-  for (int turn = 1; turn <= k_most_turns; ++turn) {
-    // Each turn starts from the temperatures of the one before; its iterations count together.
+  for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
+    // Each one starts from the temperatures of the one before; Newton's iterations of all count together.
     const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
-    const linear::NewtonReport turns_before = std::move(report.newton);
+    const linear::NewtonReport newton_before = std::move(report.newton);
     report.newton =
         truncated_newton_->solve(from, dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
-    if (turn > 1) report.newton.add_solves(turns_before);
+    if (iteration > 1) report.newton.add_solves(newton_before);
     if (!enclosed) return radiated;
     require_positive(next.temperature);
     if (system_->follow_radiation(next.temperature, k_settled_radiation, radiated)) return radiated;
@@ -220,8 +220,8 @@ std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from,
   reject_radiation(k_settled_radiation);
 }
 
-/// Adds the last turn's difference in what surfaces exchange to the heats, so that all of it adds up to zero
-/// with what left through the opening. Where the temperature is prescribed, what holds it takes the
+/// Adds the last iteration's difference in what surfaces exchange to the heats, so that all of it adds up to
+/// zero with what left through the opening. Where the temperature is prescribed, what holds it takes the
 /// difference.
 void ThermalPhase::book_radiation(std::span<const double> radiated, double dt, std::span<double> heat,
                                   std::span<double> residual) const {

@@ -48,8 +48,8 @@ class HeatSystem {
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);
-  /// Ends a turn of the radiation between surfaces (EnclosedSurfaces::follow) after a residual() at these
-  /// temperatures: powers and entropy of that residual are with the new exchange then.
+  /// Ends an iteration of the radiation between surfaces (EnclosedSurfaces::follow) after a residual() at
+  /// these temperatures: powers and entropy of that residual are with the new exchange then.
   /// @param change  set to the heat that this brings the nodes beyond what they had, [owned node] [W]
   /// Returns whether what falls on the surfaces has settled to a tolerance [K]. Collective.
   bool follow_radiation(std::span<const double> temperature, double tolerance, std::span<double> change);

@@ -11,7 +11,7 @@ namespace solidus::heat {
 
 namespace {
 
-constexpr std::size_t k_mixed_turns = 5;
+constexpr std::size_t k_mixed_iterations = 5;
 constexpr double k_independent = 1e-12;  ///< pivots, of the largest
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
@@ -77,7 +77,7 @@ void EnclosedSurfaces::set(const mesh::Mesh& mesh, AnalysisKind kind, const line
     names.push_back(conditions.radiations[i].surface);
   }
   falling_.clear();
-  turns_.clear();
+  iterations_.clear();
   // What sees each other is known already where the same faces do.
   const bool known = names == names_ && seen_ && *seen_ == active;
   names_ = names;
@@ -115,7 +115,7 @@ void EnclosedSurfaces::tell(SurfaceHeats& surfaces) {
 }
 
 void EnclosedSurfaces::begin(SurfaceHeats& surfaces, std::span<const double> temperature) {
-  turns_.clear();
+  iterations_.clear();
   falling_ = following(surfaces, temperature);
   tell(surfaces);
 }
@@ -131,8 +131,8 @@ bool EnclosedSurfaces::follow(SurfaceHeats& surfaces, std::span<const double> te
     falling_ = std::move(next);
   } else {
     std::vector<double> off = difference(next, falling_);
-    turns_.push_back({std::move(next), std::move(off)});
-    if (turns_.size() > k_mixed_turns) turns_.pop_front();
+    iterations_.push_back({std::move(next), std::move(off)});
+    if (iterations_.size() > k_mixed_iterations) iterations_.pop_front();
     falling_ = mixed();
   }
   tell(surfaces);
@@ -140,17 +140,17 @@ bool EnclosedSurfaces::follow(SurfaceHeats& surfaces, std::span<const double> te
 }
 
 std::vector<double> EnclosedSurfaces::mixed() const {
-  const Turn& last = turns_.back();
+  const Iteration& last = iterations_.back();
   // The newest differences stand first: older ones that say the same are left out.
   std::vector<std::vector<double>> columns;
-  for (std::size_t j = turns_.size() - 1; j > 0; --j)
-    columns.push_back(difference(turns_[j].off, turns_[j - 1].off));
+  for (std::size_t j = iterations_.size() - 1; j > 0; --j)
+    columns.push_back(difference(iterations_[j].off, iterations_[j - 1].off));
   const std::vector<double> gamma = least_squares(columns, last.off);
   std::vector<double> x = last.followed;
   for (std::size_t k = 0; k < gamma.size(); ++k) {
-    const std::size_t j = turns_.size() - 1 - k;
+    const std::size_t j = iterations_.size() - 1 - k;
     for (std::size_t c = 0; c < x.size(); ++c)
-      x[c] -= gamma[k] * (turns_[j].followed[c] - turns_[j - 1].followed[c]);
+      x[c] -= gamma[k] * (iterations_[j].followed[c] - iterations_[j - 1].followed[c]);
   }
   // Radiation is not negative: where the mixture is, it went too far.
   return std::ranges::all_of(x, [](double v) { return v >= 0; }) ? x : last.followed;

@@ -1,9 +1,10 @@
-/// The surfaces of a heat system that see each other, and the turns in which what falls on them is found.
+/// The surfaces of a heat system that see each other, and the fixed-point iteration that finds what falls on
+/// them.
 ///
-/// Temperatures follow from what falls on the surfaces, and what falls on them from the temperatures: a turn
-/// solves for the one with the other held. From turn to turn what falls on the clusters is mixed by
-/// Anderson's method (D. G. Anderson, J. ACM 12, 1965) from the last turns: with differences of what was
-/// taken, x, and of what followed from it, g, the next one is
+/// Temperatures follow from what falls on the surfaces, and what falls on them from the temperatures: an
+/// iteration solves for the one with the other held. What falls on the clusters in the next one is mixed by
+/// Anderson's method (D. G. Anderson, J. ACM 12, 1965) from the last ones: with differences of what was
+/// taken, x, and of what followed from it, g, it is
 ///
 ///   x ← g_k − Σ_j γ_j (g_{j+1} − g_j),   γ the least squares of f_k − Σ_j γ_j (f_{j+1} − f_j),  f = g − x
 ///
@@ -26,10 +27,10 @@ namespace solidus::heat {
 class Enclosure;
 
 /// What falls on a surface counts as found where it is the radiation of surroundings of a temperature that
-/// changes by less than this from turn to turn [K]; and the turns that a solution may take.
+/// changes by less than this from one iteration to the next [K]; and the iterations that a solution may take.
 /// A step adds what is left to the heats of the nodes; a steady state has nowhere to put it.
 inline constexpr double k_settled_radiation = 0.05, k_settled_steady_radiation = 1e-6;
-inline constexpr int k_most_turns = 60;
+inline constexpr int k_most_radiation_iterations = 60;
 
 class EnclosedSurfaces {
  public:
@@ -44,9 +45,10 @@ class EnclosedSurfaces {
   void set(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active, bool closed,
            const ThermalConditions& conditions);
   bool any() const { return enclosure_ != nullptr; }
-  /// What falls on the surfaces is that of these temperatures, [local node] [K], and turns begin. Collective.
+  /// What falls on the surfaces is that of these temperatures, [local node] [K], and the iteration begins.
+  /// Collective.
   void begin(SurfaceHeats& surfaces, std::span<const double> temperature);
-  /// Ends a turn, whose temperatures these are. Where what falls on the surfaces follows from them to a
+  /// Ends an iteration, whose temperatures these are. Where what falls on the surfaces follows from them to a
   /// tolerance [K], it is that from here on, and the result is true; else it is a better guess. Collective.
   bool follow(SurfaceHeats& surfaces, std::span<const double> temperature, double tolerance);
   /// Numbers of the surfaces in SurfaceHeats::each().
@@ -56,7 +58,7 @@ class EnclosedSurfaces {
   std::size_t bytes() const;
 
  private:
-  struct Turn {
+  struct Iteration {
     std::vector<double> followed, off;  ///< g and f [K⁴]
   };
   std::vector<double> following(SurfaceHeats& surfaces, std::span<const double> temperature);
@@ -68,7 +70,7 @@ class EnclosedSurfaces {
   std::vector<std::string> names_;           ///< of their groups
   std::unique_ptr<linear::ActiveSet> seen_;  ///< bodies that the view factors are of
   std::vector<double> falling_;              ///< what is taken, x [cluster] [K⁴]
-  std::deque<Turn> turns_;
+  std::deque<Iteration> iterations_;
 };
 
 }  // namespace solidus::heat
