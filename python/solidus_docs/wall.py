@@ -182,18 +182,20 @@ def run(names):
     """Runs experiments and keeps what they give."""
     path = os.environ.get("SOLIDUS_PROGRAM", str(ROOT / "build/release/solidus"))
     kept_file = FOLDER / "wall.json"
-    there, found = experiments(), {}
-    for name in names or there:
+    there = experiments()
+    for name in names:
         if name not in there:
             raise ValueError(f"there is no experiment '{name}'; there are {', '.join(there)}")
+    for name in names or there:
         program = Program(path)
         version = program("--version").split()[1]
         with tempfile.TemporaryDirectory() as scratch:
             values = COMPUTE[there[name]["kind"]](there[name], program, pathlib.Path(scratch))
-        found[name] = {"version": version, "seconds": float(f"{program.seconds:.2g}"), "values": rounded(values)}
-        print(name, summary(found[name]["values"]), file=sys.stderr)
-    kept = {**(json.loads(kept_file.read_text()) if kept_file.exists() else {}), **found}
-    kept_file.write_text(json.dumps({name: kept[name] for name in there if name in kept}, indent=1, ensure_ascii=False) + "\n")
+        found = {"version": version, "seconds": float(f"{program.seconds:.2g}"), "values": rounded(values)}
+        print(name, summary(found["values"]), file=sys.stderr)
+        # Each row is kept as soon as it is there: what fails later, or is interrupted, does not take it away.
+        kept = {**(json.loads(kept_file.read_text()) if kept_file.exists() else {}), name: found}
+        kept_file.write_text(json.dumps({name: kept[name] for name in there if name in kept}, indent=1, ensure_ascii=False) + "\n")
 
 
 def rounded(values):
