@@ -1,4 +1,4 @@
-"""The example of a heat treatment: what each stage does to the stress that the one before it left."""
+"""The case of a heat treatment: what each stage does to the stress that the one before it left."""
 
 import os
 from pathlib import Path
@@ -10,9 +10,9 @@ from program import SOURCES, ProgramTest
 
 class HeatTreatment(ProgramTest):
     def test_the_furnace_relaxes_the_water_strains_and_ageing_takes_little(self):
-        example = SOURCES / "examples/heat_treatment"
-        self.done("run", str(example), "-o", "disc", timeout=600)
-        printed = subprocess.run(["/usr/bin/python3", str(example / "after_stages.py"), str(Path(self.folder) / "disc")], text=True, check=True,
+        case = SOURCES / "cases/heat_treatment"
+        self.done("run", str(case), "-o", "disc", timeout=600)
+        printed = subprocess.run(["/usr/bin/python3", str(case / "after_stages.py"), str(Path(self.folder) / "disc")], text=True, check=True,
                                  capture_output=True, env={**os.environ, "PYTHONPATH": str(SOURCES / "python")}).stdout
         rows = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in printed.splitlines()[1:]}
         self.assertEqual(list(rows), ["pour", "air", "solution", "quench", "ageing", "cold"])

@@ -17,7 +17,7 @@ from program import PATIENCE, PROGRAM, SOURCES, ProgramTest
 WHOLE = "SOLIDUS_WHOLE_PAGES" in os.environ
 PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md"))]
 # Left out but by `./dev nightly`.
-LONG = [r"(^|/)dev (run|plot|point|materials) ", r"^solidus (plot|compare) ", r"^solidus run (cases/crankshaft|examples/heat_treatment)", r"--coupled",
+LONG = [r"(^|/)dev (run|plot|point|materials) ", r"^solidus (plot|compare) ", r"^solidus run cases/(crankshaft|heat_treatment)", r"--coupled",
         r"--pictures", r"--watch", r"--shots", r"^solidus (study|uncertain|calibrate) (?!.*--dry-run)", r"^mpirun -n 8", r"--sure",
         r"--pdf", r"^solidus pattern "]
 # Programs that pages speak of and that a release may lack, as ./dev has them.
