@@ -56,6 +56,26 @@ def bands(summary):
     return {name: band for name, band in found.items() if band is not None}
 
 
+def places(summary):
+    """Name as of answers() -> where the value was found [m], where the run states it."""
+    given, found = summary.get("answers", {}), {}
+    for name, casting in given.get("castings", {}).items():
+        found[f"{name}: last melt froze[s]"] = casting.get("last_melt_froze")
+        found[f"{name}: hottest melt[degC]"] = casting.get("hottest_melt")
+    found["pools cut off[1]"] = given.get("pools_cut_off")
+    for contact, gap in given.get("largest_gaps", {}).items():
+        found[f"largest gap of {contact}[mm]"] = gap
+    found["largest distortion[mm]"] = given.get("largest_distortion")
+    found["largest von Mises stress[MPa]"] = given.get("largest_von_mises")
+    found = {name: entry["at[m]"] for name, entry in found.items() if isinstance(entry, dict) and "at[m]" in entry}
+    criteria = summary.get("criteria", {})
+    for name, field in _criteria(summary).items():
+        where = criteria.get(f"{field.finding.split('[')[0]}_at[m]")
+        if where is not None:
+            found[name] = where
+    return found
+
+
 def answers(summary):
     """Name with unit -> number: what the run answers and what its criteria found, in the units of its terminal."""
     given, found = summary.get("answers", {}), {}

@@ -62,6 +62,7 @@ elif verb == "mesh-info":
 elif verb == "new":
     folder = pathlib.Path(given["output"])
     folder.mkdir(parents=True)
+    print("plate.step: pure_tin\\n  hot spot    a sphere of 29.7 mm at (1, -40.5, 0.5) mm\\n  mould       walls of 45 mm")
     (folder / "case.toml").write_text(pathlib.Path(__file__).with_name("case.toml").read_text() + "# " + " ".join(words) + "\\n")
     (folder / "risers.step").write_text("solids")
 elif verb == "check":
@@ -75,7 +76,8 @@ elif verb == "run":
     (folder / "steps.csv").write_text("time[s],step[1],solid_fraction[1]\\n1,1,0.25\\n5,2,0.5\\n")
     if "--coupled" in words:
         time.sleep(60)
-    (folder / "summary.json").write_text('{"outcome": "finished", "warnings": [], "steps": 2, "answers": {"yield": 0.5}}')
+    (folder / "summary.json").write_text('{"outcome": "finished", "warnings": ["thin at (1, 2, 3) mm"], "steps": 2, '
+        '"answers": {"yield": 0.5, "castings": {"plate": {"last_melt_froze": {"value[s]": 9, "at[m]": [0, 1, 2]}}}}}')
     (folder / "report.html").write_text("<p>report")
 '''
 
@@ -314,11 +316,18 @@ class Served(unittest.TestCase):
         self.assertIn("--alloy=pure_tin", state["case"]["text"])
         self.assertEqual((self.folder / "plate" / "risers.step").read_text(), "solids")
         self.assertTrue(state["made"])
+        self.assertEqual([(f["message"], f["places"]) for f in state["thickest"]],
+                         [("a sphere of 29.7 mm at (1, -40.5, 0.5) mm", [[0.001, -0.0405, 0.0005]])])
         self.assertEqual((state["check"]["current"], state["check"]["findings"][0]["places"]), (True, [[0.001, -0.002, 0.03]]))
         self.assertEqual(json.loads(self.raw("GET", f"/{self.server.token}/skin/part")[1].split(b"\n")[0])["names"], ["a plate"])
         self.assertEqual(self.post("run", physics="heat")[0], 200)
         state = self.at_rest()
         self.assertEqual([(r["name"], r["outcome"], r["report"]) for r in state["runs"]], [("run_1", "finished", True)])
+        # Answers and warnings lead to places, and the end of the run is told even to a page that has not seen it go on.
+        run = state["runs"][0]
+        self.assertEqual([(a["name"], a["at"]) for a in run["answers"]], [("plate: last melt froze", [0, 1, 2]), ("yield", None)])
+        self.assertEqual(run["warnings"][0]["places"], [[0.001, 0.002, 0.003]])
+        self.assertEqual((state["last"]["run"], state["last"]["number"]), ("run_1", 3))
         self.assertEqual(self.raw("GET", f"/{self.server.token}/run/run_1/report")[1], b"<p>report")
 
     def test_a_run_goes_on_without_a_page_is_found_again_and_stopped(self):

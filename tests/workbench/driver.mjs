@@ -64,11 +64,21 @@ export class Desk {
     }
     throw new Error(`never came: ${expression}; the page says: ${await this.page.run("document.querySelector('#told').textContent + ' ' + document.querySelector('#job').textContent")}`);
   }
-  /** Clicks an element in its middle, as the mouse does, once it can be clicked. */
+  /** A place [px] once it is the same in two pictures that follow each other: nothing moves it any more. */
+  async atRest(expression) {
+    for (let before = "", i = 0; i < 100 * patience; ++i, await this.page.settle()) {
+      const at = await this.page.run(expression), now = JSON.stringify(at);
+      if (at && now === before) return at;
+      before = now;
+    }
+    throw new Error(`never at rest: ${expression}`);
+  }
+  /** Clicks an element in its middle, as the mouse does, once it can be clicked and stands still. */
   async click(selector) {
     await this.until(`!!document.querySelector('${selector}') && !document.querySelector('${selector}').disabled`);
-    const [x, y] = await this.page.run(`(() => {
+    const [x, y] = await this.atRest(`(() => {
       const e = document.querySelector('${selector}');
+      if (!e || e.disabled) return null;
       e.scrollIntoView({ block: 'center', behavior: 'instant' });
       const b = e.getBoundingClientRect();
       return [b.left + b.width / 2, b.top + b.height / 2];
@@ -95,7 +105,7 @@ export class Desk {
   }
   /** Clicks the picture where a place of the part [m] is seen. */
   async clickPlace(at) {
-    const [x, y] = await this.page.run(`(() => {
+    const [x, y] = await this.atRest(`(() => {
       const { picture } = solidus.stage, box = picture.canvas.getBoundingClientRect(), [px, py] = picture.project(${JSON.stringify(at)});
       return [box.left + px, box.top + py];
     })()`);

@@ -83,7 +83,30 @@ async function ofACase(server, desk) {
   await desk.until("!!document.querySelector('#report-run_1')", 120);
   await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
   check("a run ends in its report, next to the steps", true);
+  await desk.until("!!document.querySelector('#run_1 .answers button')");
+  await desk.click("#run_1 .answers button");
+  check("an answer leads to its place in the picture", await desk.page.run("!document.querySelector('#tab-view').hidden && document.querySelectorAll('.mark.find').length === 1"));
+  await desk.click("#report-run_1");
+  await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
   check("titles go in as text", await desk.page.run("document.querySelector('#report-frame').contentDocument.querySelector('h1').textContent") === "A <b>block</b>");
+}
+
+/** A button that is held down while the page hears of changes ten times a second: its click is not lost. */
+async function ofAHeldButton(server, desk) {
+  await desk.click("#to-view-tab");
+  await desk.until("!!document.querySelector('#show-0-ghost')");
+  const [x, y] = await desk.atRest("(() => { const b = document.querySelector('#show-0-ghost').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()");
+  await desk.page.mouse("mousePressed", x, y);
+  const { edits } = await server.state();
+  await desk.page.run(`fetch('set', { method: 'POST', body: JSON.stringify({ seen: ${edits}, path: ['title'], value: 'changed while a button is held' }) })`);
+  await new Promise((r) => setTimeout(r, 1000));
+  await desk.page.mouse("mouseReleased", x, y);
+  await desk.until("document.querySelector('#show-0-ghost').classList.contains('on')", 10);
+  await desk.until("solidus.state.case.document.title === 'changed while a button is held'");
+  check("a button that is held down while something changes does what it says", true);
+  await desk.click("#show-0-shown");
+  await desk.click("#undo");
+  await desk.until("solidus.state.case.document.title !== 'changed while a button is held'");
 }
 
 /** A key that is wrong, what check says, and undo. */
@@ -157,6 +180,26 @@ async function ofAPart(server, desk) {
   await desk.type("#riser-0-diameter", "31");
   await desk.until("Math.abs(solidus.state.choices.risers[0].diameter - 0.031) < 1e-9");
   check("its size can be typed", true);
+  // A side of the plate, seen from there: the plate is halved parallel to it, and gets its gate.
+  await desk.page.run("solidus.stage.picture.look([-1, 0, 0])");
+  const side = await desk.page.run(`(() => {
+    const { picture } = solidus.stage, h = picture.pick(picture.canvas.clientWidth / 2, picture.canvas.clientHeight / 2);
+    return h && { place: h.place, normal: h.normal };
+  })()`);
+  await desk.clickPlace(side.place);
+  await desk.click("#place-symmetry");
+  await desk.until("solidus.state.choices.symmetry !== ''");
+  check("a face says how the part is halved", "xyz".indexOf((await server.state()).choices.symmetry) === side.normal.findIndex((v) => Math.abs(v) > 0.99), side);
+  await desk.clickPlace(side.place);
+  await desk.click("#place-gate");
+  await desk.until("solidus.state.choices.gate !== null");
+  check("a gate lies where one clicked", Math.hypot(...(await server.state()).choices.gate.map((v, i) => v - side.place[i])) < 1e-3);
+  await desk.clickPlace(side.place);
+  await desk.until("document.querySelector('#place-symmetry')?.textContent === 'Whole again'");
+  await desk.click("#undo");
+  await desk.click("#undo");
+  await desk.until("solidus.state.choices.gate === null && solidus.state.choices.symmetry === ''");
+  check("both are undone", true);
   check("fields have names for screen readers", await desk.page.run("[...document.querySelectorAll('input:not([hidden]), select, textarea, button, iframe')].every((e) => e.ariaLabel || e.title || e.labels?.length || e.textContent.trim())"));
 }
 
@@ -178,6 +221,7 @@ const browser = await Browser.open();
 try {
   const desk = await Desk.open(browser, server.address);
   await ofACase(server, desk);
+  await ofAHeldButton(server, desk);
   await ofMistakes(server, desk);
   await ofPages(server, browser, desk);
   await ofAPart(server, desk);

@@ -41,6 +41,7 @@ class Bench:
         self._case: CaseFolder | None = None
         self._skins: dict[str, tuple[str, bytes]] = {}
         self._job: Job | None = None
+        self._jobs = 0  # that were begun
         self._last: Answer | None = None
         self._compared: Answer | None = None
         self._closed = False
@@ -71,11 +72,11 @@ class Bench:
         case = self._case
         answer: Answer = {"revision": self._revision, "edits": self._edits, "folder": str(self.place.folder), "job": self._job_state(),
                           "last": self._last, "skins": {name: tag for name, (tag, _) in self._skins.items()}, "compared": self._compared,
-                          "part": None, "case": None, "choices": None, "made": None, "runs": [], "check": None, "undo": 0, "redo": 0}
+                          "part": None, "case": None, "choices": None, "made": None, "runs": [], "thickest": [], "check": None, "undo": 0, "redo": 0}
         if case is None:
             return answer
         answer |= {"part": None if case.part is None else self.place.name(case.part), "choices": case.choices, "made": case.is_made_of_choices,
-                   "runs": runs.all_runs(self._results),
+                   "runs": runs.all_runs(self._results), "thickest": findings.measured(case.said_of_part) if case.text is not None else [],
                    "undo": case.undoable, "redo": case.redoable, "case": self._case_state(case), "name": self.place.name(case.folder)}
         check = case.kept_check()
         if check is not None:
@@ -265,14 +266,15 @@ class Bench:
             self._start(what, label, work)
 
     def _start(self, what: str, label: str, work: Callable[[Job], None]) -> None:
-        job = Job(what, label)
+        self._jobs += 1
+        job = Job(what, label, self._jobs)
         self._job, self._last = job, None
         self._tell()
         threading.Thread(target=self._work, args=(job, work), daemon=True).start()
 
     def _work(self, job: Job, work: Callable[[Job], None]) -> None:
         """Does a job and keeps how it ended."""
-        last: Answer = {"what": job.what, "ok": True, "message": "", "findings": []}
+        last: Answer = {"what": job.what, "ok": True, "message": "", "findings": [], "number": job.number}
         try:
             work(job)
         except (SolidusError, KeyboardInterrupt, OSError) as error:
@@ -283,7 +285,8 @@ class Bench:
         except Exception as error:  # a mistake of ours is told, and the page goes on
             last |= {"ok": False, "message": f"a mistake of the workbench: {error!r}"}
         with self._changed:
-            self._job, self._last = None, last
+            # With its run: a page that has heard nothing while it went on hears now that it has ended.
+            self._job, self._last = None, {**last, "run": job.run}
             self._tell()
 
     def _call(self, job: Job, words: list[str], label: str, heard: Callable[[str], None] | None = None) -> Child:
@@ -363,10 +366,9 @@ class Bench:
                 shutil.move(path, case.folder / path.name)
         with self._changed:
             case.change(text=text)
-            case.note_made()
+            case.note_made("\n".join(child.output))
             self._edits += 1
         shutil.rmtree(made, ignore_errors=True)
-        case.own("new.txt").write_text("\n".join(child.output), encoding="utf-8")
         self._check(job)
 
     def _check(self, job: Job) -> None:

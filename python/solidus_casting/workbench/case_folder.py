@@ -156,9 +156,18 @@ class CaseFolder:
         self._at = to
         self._keep_choices()
 
-    def note_made(self) -> None:
-        """Remembers of which choices the case file was made."""
+    def note_made(self, said: str) -> None:
+        """Remembers of which choices the case file was made, and what the program said of the part."""
         write(self.own("made_of.json"), json.dumps(self.choices, indent=1) + "\n")
+        write(self.own("new.txt"), said + "\n")
+
+    @property
+    def said_of_part(self) -> str:
+        """What the program said when it made the case; empty where the page did not make it."""
+        try:
+            return self._own("new.txt").read_text(encoding="utf-8")
+        except (OSError, ValueError):
+            return ""
 
     @property
     def is_made_of_choices(self) -> bool | None:

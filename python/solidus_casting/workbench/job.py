@@ -13,10 +13,16 @@ class Conflict(SolidusError):
 
 
 class Job:
-    """What is computed at present: its name, what it has printed, and how it is stopped."""
+    """What is computed at present: its name, what it has printed, and how it is stopped.
 
-    def __init__(self, what: str, label: str) -> None:
-        self.what, self.label, self.began = what, label, time.time()
+    Attributes
+    ----------
+    number:
+        Counts the jobs of a server, so that a page knows one that has ended from one before it.
+    """
+
+    def __init__(self, what: str, label: str, number: int) -> None:
+        self.what, self.label, self.number, self.began = what, label, number, time.time()
         self.lines: list[str] = []
         self.child: Child | None = None
         self.stopping = False

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from . import findings
 
 NAME = re.compile(r"run_[0-9]{1,6}")
 _MOST_ROWS = 400  # of a curve
@@ -47,18 +48,19 @@ def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
                            "report": (folder / "report.html").exists()}
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        from solidus_plots.answers import answers, bands
+        from solidus_plots.answers import answers, bands, places
 
-        errors = bands(summary)
-        run["answers"] = [{**named(name), "value": value, "error": errors.get(name)} for name, value in answers(summary).items()]
-        run["warnings"] = [str(warning) for warning in summary.get("warnings", [])]
+        errors, found_at = bands(summary), places(summary)
+        run["answers"] = [{**named(name), "value": value, "error": errors.get(name), "at": found_at.get(name)}
+                          for name, value in answers(summary).items()]
+        run["warnings"] = [findings.finding("warning", str(warning), "", {}) for warning in summary.get("warnings", [])]
         run["outcome"] = str(summary.get("outcome", "not ended"))
         run["time"], run["steps"] = summary.get("end_time[s]"), summary.get("steps")
         json.dumps(run, allow_nan=False)
     except FileNotFoundError:
         pass
     except (ValueError, TypeError, AttributeError, KeyError) as error:
-        return {"name": folder.name, "outcome": "damaged", "answers": [], "warnings": [f"its summary.json cannot be read: {error!r}"],
+        return {"name": folder.name, "outcome": "damaged", "answers": [], "warnings": [findings.finding("error", f"its summary.json cannot be read: {error!r}", "", {})],
                 "report": run["report"]}
     return run
 

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { h } from "../../report/src/dom";
 import { lineColour } from "../../report/src/colours";
-import { get, type Answer, type Desk, type RunState, type State } from "./state";
+import { get, type Answer, type Desk, type Finding, type RunState, type State } from "./state";
 import { field, select } from "./setup";
 
 type Children = (Node | string | null | false)[];
@@ -18,7 +18,7 @@ export class Judge {
   private second = "";
   private plot?: uPlot;
 
-  constructor(private readonly desk: Desk, private readonly openReport: (run: string) => void) {}
+  constructor(private readonly desk: Desk, private readonly openReport: (run: string) => void, private readonly finding: (f: Finding, id: string) => HTMLElement) {}
 
   /** 4: what is computed. */
   run(state: State): Children {
@@ -51,13 +51,16 @@ export class Judge {
 
   private one(run: RunState, goesOn: boolean): HTMLElement {
     const good = run.outcome === "finished";
-    const line = (a: Answer) => h("tr", {}, h("th", { scope: "row" }, a.name), h("td", {}, `${short(a.value)}${a.unit === "1" ? "" : ` ${a.unit}`}${a.error ? ` ± ${short(a.error)}` : ""}`));
+    // An answer that was found at a place leads to it.
+    const show = (a: Answer) => this.desk.show({ severity: "note", message: a.name, places: [a.at!], bodies: [] });
+    const name = (a: Answer) => (a.at ? h("button", { class: "link", title: "Show where", click: () => show(a) }, a.name) : a.name);
+    const line = (a: Answer) => h("tr", {}, h("th", { scope: "row" }, name(a)), h("td", {}, `${short(a.value)}${a.unit === "1" ? "" : ` ${a.unit}`}${a.error ? ` ± ${short(a.error)}` : ""}`));
     return h("article", { class: "run", id: run.name },
       h("header", {}, h("b", {}, run.name.replace("_", " ")), h("span", { class: `badge ${goesOn ? "" : good ? "good" : "bad"}` }, goesOn ? "running" : run.outcome.split(/[:;,]/)[0]),
         run.report ? h("button", { id: `report-${run.name}`, click: () => this.openReport(run.name) }, "Report") : null,
         h("button", { class: "quiet", id: `curves-${run.name}`, click: () => void this.curves(run.name) }, "Curves")),
       run.answers.length ? h("table", { class: "plain answers" }, ...run.answers.map(line)) : null,
-      run.warnings.length ? h("details", {}, h("summary", {}, `${run.warnings.length} to look at`), h("ul", {}, ...run.warnings.map((w) => h("li", {}, w)))) : null);
+      run.warnings.length ? h("details", {}, h("summary", {}, `${run.warnings.length} to look at`), h("ul", { class: "findings" }, ...run.warnings.map((w, n) => this.finding(w, `${run.name}-look-${n}`)))) : null);
   }
 
   private async curves(run: string): Promise<void> {

@@ -20,18 +20,25 @@ class Bench implements Desk {
   private readonly keys: Keys;
   private lastRun: string | null = null;
   private curvesOf: string | null = null;
+  /** The number of the job whose end was seen last. */
+  private endSeen: number;
+  /** Whether a button is held down, and the newest state that came meanwhile. */
+  private pressed = false;
+  private waiting: State | null = null;
 
   constructor(readonly about: About, state: State) {
     this.state = state;
+    this.endSeen = state.last?.number ?? 0;
     this.stage = new Stage(this);
     this.setup = new Setup(this, () => (this.stage.which === "part" ? this.stage.picture.bodies : []), () => this.stage.riserOnTop());
-    this.judge = new Judge(this, (run) => this.openReport(run));
+    this.judge = new Judge(this, (run) => this.openReport(run), (finding, id) => this.setup.finding(finding, id));
     this.keys = new Keys(this);
     this.keys.again = () => this.panel("keys-form", "", this.keys.render(this.state), true);
     this.head();
     this.textEditor();
     this.dropping();
     this.shortcuts();
+    this.presses();
   }
 
   // What parts of the page ask for
@@ -89,12 +96,17 @@ class Bench implements Desk {
 
   apply(state: State): void {
     if (state.revision < this.state.revision && state.name === this.state.name) return;
+    // A button that is held down is not built anew below the finger: the click would be lost.
+    if (this.pressed) {
+      if (!this.waiting || state.revision >= this.waiting.revision || state.name !== this.waiting.name) this.waiting = state;
+      return;
+    }
     const before = this.state;
     this.state = state;
     const busy = state.job !== null, s = state;
     this.stage.update(s);
     this.panel("part-panel", JSON.stringify([s.name, s.part, s.choices?.roles, s.choices?.unit, busy, this.stage.which, this.stage.picture.bodies.map((b) => b.name)]), this.setup.part(s));
-    this.panel("casting-panel", JSON.stringify([s.part, s.choices, s.made, busy, s.case?.file, (s.case?.document?.mesh as { riser?: unknown } | undefined)?.riser]), this.setup.casting(s));
+    this.panel("casting-panel", JSON.stringify([s.part, s.choices, s.made, busy, s.thickest, s.case?.file, (s.case?.document?.mesh as { riser?: unknown } | undefined)?.riser]), this.setup.casting(s));
     this.panel("check-panel", JSON.stringify([s.case?.digest, s.check, busy]), this.setup.check(s));
     this.panel("run-panel", JSON.stringify([!!s.case, busy, s.check?.current, s.check?.error]), this.judge.run(s));
     this.panel("runs-panel", JSON.stringify([s.runs, busy, s.job?.run]), this.judge.runs(s));
@@ -116,11 +128,12 @@ class Bench implements Desk {
     if (watch && live.getAttribute("src") !== watch) live.src = watch;
     if (!watch && live.getAttribute("src")) live.removeAttribute("src");
     if (!watch && this.tab === "live") this.tab = this.lastRun ? "report" : "view";
-    // A run that has ended shows its report by itself.
-    const ended = before.job?.run;
-    if (ended && !s.job) {
-      if (s.runs.find((r) => r.name === ended)?.report) this.openReport(ended);
-      this.curvesOf = null;
+    // A run that has ended shows its report by itself, also where this page has heard nothing of it while it went on.
+    const { last } = s;
+    if (last && last.number > this.endSeen) {
+      this.endSeen = last.number;
+      if (last.run) this.curvesOf = null;
+      if (last.run && s.runs.find((r) => r.name === last.run)?.report) this.openReport(last.run);
     }
     if (s.compared && s.compared.tag !== before.compared?.tag) {
       byId<HTMLIFrameElement>("compared-frame").src = `compared/report?tag=${s.compared.tag}`;
@@ -222,6 +235,24 @@ class Bench implements Desk {
     addEventListener("dragover", (e) => { e.preventDefault(); document.body.classList.add("dropping"); });
     addEventListener("dragleave", (e) => { if (!e.relatedTarget) document.body.classList.remove("dropping"); });
     addEventListener("drop", (e) => { e.preventDefault(); document.body.classList.remove("dropping"); load(e.dataTransfer?.files[0]); });
+  }
+  /** Holds back what would build buttons and fields anew while one of them is pressed. */
+  private presses(): void {
+    addEventListener("pointerdown", (e) => {
+      this.pressed = e.target instanceof Element && !!e.target.closest("button, select, input, textarea, summary, label");
+    }, true);
+    const up = () => setTimeout(() => {
+      // The click comes behind the release, and its own change goes before what has waited.
+      if (!this.pressed) return;
+      this.pressed = false;
+      const { waiting } = this;
+      this.waiting = null;
+      if (waiting) this.apply(waiting);
+    });
+    for (const name of ["pointerup", "pointercancel", "dragend", "change"]) addEventListener(name, up, true);
+    // The list of a choice takes the release for itself: the first movement without a button tells it, or the page is left.
+    addEventListener("pointermove", (e) => e.buttons === 0 && up(), true);
+    addEventListener("blur", (e) => e.target === window && up());
   }
   private shortcuts(): void {
     const views: Record<string, [number, number, number]> = { "1": [1, 0, 0], "2": [-1, 0, 0], "3": [0, 1, 0], "4": [0, -1, 0], "5": [0, 0, 1], "6": [0, 0, -1], "7": this.stage.picture.camera.corner };

@@ -159,6 +159,12 @@ export class Picture {
       add(new Mesh(new BoxGeometry(d[0], d[1], d[2]), look(ROLE_COLOURS.chill)), [0, 1, 2].map((i) => (c.highest[i] + c.lowest[i]) / 2) as Place);
     }
     for (const p of choices?.probes ?? []) add(new Mesh(new SphereGeometry(size / 90, 20, 14), look("#d03a8c")), p.point);
+    // The plane of symmetry, in the middle of the part: `new` keeps what lies below it.
+    const { low, high } = this.box(), axis = "xyz".indexOf(choices?.symmetry || "-");
+    if (axis >= 0) {
+      const d = [0, 1, 2].map((i) => (i === axis ? size / 2000 : 1.15 * (high[i] - low[i])));
+      add(new Mesh(new BoxGeometry(d[0], d[1], d[2]), paint("#2f8fd0", 0.3)), [0, 1, 2].map((i) => (low[i] + high[i]) / 2) as Place);
+    }
     if (choices?.gate) add(new Mesh(new SphereGeometry(size / 60, 20, 14), look("#7b3fb5")), choices.gate);
     this.request();
   }

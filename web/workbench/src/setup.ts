@@ -88,6 +88,8 @@ export class Setup {
         field("Symmetry", select("symmetry", [["", "none"], ["x", "half, below the middle in x"], ["y", "half, below the middle in y"], ["z", "half, below the middle in z"]], c.symmetry, (symmetry) => void this.desk.choose({ symmetry }), busy)),
         field("Elements", select("fineness", fine, String(c.fineness), (v) => void this.desk.choose({ fineness: +v }), busy))),
       ...this.placed(c, busy),
+      state.thickest.length ? h("details", { open: true }, h("summary", {}, "Hot spots: the thickest places of the part"),
+        h("ul", { class: "findings", id: "thickest" }, ...state.thickest.map((f, n) => this.finding(f, `thick-${n}`)))) : null,
       h("button", { class: `main${state.made === true ? "" : " on"}`, id: "make", disabled: busy || !c.alloy, click: () => void this.desk.ask("make") }, state.case ? "Make the case again" : "Make the case"),
       state.case && state.made === false ? h("p", { class: "hint" }, "Something was chosen since the case was made. Making it again replaces the case file; Undo brings the old one back.") : null,
       state.case && state.made !== false ? h("p", { class: "hint" }, `Written to ${state.case.file}; what is changed there by hand is shown here.`) : null,

@@ -52,6 +52,8 @@ export class Stage {
   private async load(tag: string): Promise<void> {
     const before = this.loading;
     this.loading = tag;
+    // The picture of another part must not take clicks that are meant for this one.
+    if (before.split("/")[0] !== tag.split("/")[0]) this.picture.load([], false);
     this.found = [];
     this.lit = [];
     this.close();
@@ -218,6 +220,7 @@ export class Stage {
           void this.desk.choose({ riser: "placed", risers: [...now().risers, riserAt(body, hit, freeName("riser", now().risers))] })),
         button("chill", "Chill here", onPart, () => void this.desk.choose({ riser: "placed", chills: [...now().chills, chillAt(body, hit, freeName("chill", now().chills))] })),
         button("probe", "Probe inside", this.which === "part" ? onPart : busy, () => this.probe(body, hit)),
+        this.which === "part" ? this.halve(hit, button, onPart) : null,
         this.which === "part" ? button("gate", "Gate here", onPart, () => void this.desk.choose({ gate: hit.place })) : button("film", "Film here", busy, () => void this.film(body.name, hit)),
         h("button", { class: "quiet", id: "place-close", click: () => this.clear() }, "Close")),
     );
@@ -225,6 +228,13 @@ export class Stage {
     const wide = 240, x = Math.min(at[0] + 14, Math.max(8, this.picture.canvas.clientWidth - wide - 8));
     const y = Math.min(at[1] + 14, Math.max(8, this.picture.canvas.clientHeight - 170));
     this.card.style.transform = `translate(${x}px, ${y}px)`;
+  }
+  /** Symmetry by a face: the part is halved in its middle, parallel to the face, or made whole again. */
+  private halve(hit: Pick, button: (id: string, text: string, why: string, act: () => void) => HTMLElement, why: string): HTMLElement {
+    const axis = [0, 1, 2].find((i) => Math.abs(hit.normal[i]) > 0.9998), now = this.desk.state.choices?.symmetry ?? "";
+    if (axis !== undefined && "xyz"[axis] === now) return button("symmetry", "Whole again", why, () => void this.desk.choose({ symmetry: "" }));
+    return button("symmetry", "Halve parallel to it", why || (axis === undefined ? "a plane of symmetry is normal to an axis: click a flat face that is" : ""),
+      () => void this.desk.choose({ symmetry: "xyz"[axis!] }));
   }
   /** A probe of the part is kept for the case that is made of it; one of the case goes into its file. */
   private probe(body: Parameters<typeof probeAt>[0], hit: Pick): void {
@@ -264,6 +274,7 @@ export class Stage {
   }
 
   private overlay(): void {
+    if (this.picture.canvas.clientWidth < 2) return; // behind another tab: drawn when it is turned to
     const c = this.desk.state?.choices, marks = [...this.found];
     if (c && this.which === "part") {
       if (c.riser === "placed") {

@@ -14,8 +14,8 @@ export interface Choices {
 }
 
 export interface Finding { severity: "error" | "warning" | "note"; message: string; places: Place[]; bodies: string[]; line?: number; section?: string }
-export interface Answer { name: string; unit: string; value: number; error: number | null }
-export interface RunState { name: string; outcome: string; answers: Answer[]; warnings: string[]; report: boolean; time?: number; steps?: number }
+export interface Answer { name: string; unit: string; value: number; error: number | null; at: Place | null }
+export interface RunState { name: string; outcome: string; answers: Answer[]; warnings: Finding[]; report: boolean; time?: number; steps?: number }
 export interface Progress { time?: number; step?: number; solid?: number | null; hottest?: number | null; done?: number | null }
 export interface JobState { what: string; label: string; seconds: number; lines: string[]; stopping: boolean; run: string | null; watch: string | null; progress: Progress }
 export interface Difference { name: string; unit: string; first: number | null; second: number | null; difference: number | null }
@@ -24,10 +24,10 @@ export type Document = Record<string, unknown>;
 export interface State {
   revision: number; edits: number; folder: string; name?: string; part: string | null;
   case: { file: string; text: string; document: Document | null; error: string | null; digest: string } | null;
-  choices: Choices | null; made: boolean | null; runs: RunState[]; undo: number; redo: number;
+  choices: Choices | null; made: boolean | null; runs: RunState[]; thickest: Finding[]; undo: number; redo: number;
   check: { of: string; text: string; findings: Finding[]; error: string | null; current: boolean } | null;
   skins: Record<string, string>; job: JobState | null;
-  last: { what: string; ok: boolean; message: string; findings: Finding[]; stopped?: boolean } | null;
+  last: { what: string; ok: boolean; message: string; findings: Finding[]; stopped?: boolean; number: number; run: string | null } | null;
   compared: { first: string; second: string; answers: Difference[]; tag: string } | null;
 }
 
