@@ -16,8 +16,9 @@ import time
 
 import numpy as np
 
-from solidus_plots import filling_dictionaries as dictionaries, filling_results
+from solidus_plots import filling_dictionaries as dictionaries, filling_results, filling_trust
 from solidus_plots.filling_cavity import cavity_of, edge_for
+from solidus_plots.filling_drive import Drive, Tilt
 from solidus_plots.filling_flow import FlowError, FoamRun, version
 from solidus_plots.filling_gates import FEW, GOOD_SPEED, by_body, gate_of, vents_of, walls_of
 from solidus_plots.filling_history import History
@@ -51,8 +52,8 @@ class Mould:
         grid = read_fields(folder / "cavity" / "mesh.vtu")
         self.filling, bodies = self.file["filling"], self.file["bodies"]
         self.poured = [b for b, body in enumerate(bodies) if body["poured"]]
-        self.gravity = np.array(self.file["gravity"])
-        self.up = -self.gravity / np.linalg.norm(self.gravity)
+        self.tilt = Tilt(self.filling, self.file["gravity"])
+        self.up = self.tilt.up(0)
         edge = self.filling.get("cell_size") or edge_for(grid, self.poured, self.filling["cells"])
         self.cavity = cavity_of(grid, self.poured, edge)
         self.pouring = self.filling.get("pouring") or max(bodies[b]["hottest"] for b in self.poured)
@@ -60,8 +61,9 @@ class Mould:
         self._set_rate()
         gating = [b for b in self.poured if bodies[b]["role"] == "gating"]
         self.gate = gate_of(self.cavity, self.filling, gating, self.up, self.flow)
-        self.speed = self.flow / (len(self.gate.faces) * self.cavity.cubes.edge ** 2)
-        found, self.vents_chosen = vents_of(self.cavity, self.filling, self.up, self.gate)
+        self.drive = Drive(self.filling, self.cavity, self.gate, self.material["density"], self.flow, self.tilt)
+        self.time, self.speed = self.drive.time, self.drive.fastest
+        found, self.vents_chosen = vents_of(self.cavity, self.filling, self.tilt.positions(), self.gate)
         self.vents, self.leak = np.sort(found[:-1]), found[-1:]
         self.walls = (walls_for(self.cavity, walls_of(self.cavity, self.gate, found), self.file)
                       + walls_for(self.cavity, by_body(self.cavity, self.vents), self.file, "vent"))
@@ -75,7 +77,6 @@ class Mould:
         else:
             # The usual rule of a foundry for the time of pouring; thickness in mm, mass in kg.
             self.flow = volume / self.filling.get("time", 1.6 * (1e3 * self.wall * density * volume) ** (1 / 3))
-        self.time = volume / self.flow
 
     def melt(self):
         """Constants of the metal between its liquidus and the gate."""
@@ -101,7 +102,7 @@ class Mould:
                  f"gate {self.gate.chosen}: {len(self.gate.faces)} faces of cubes, {1e3 * self.gate.width:.3g} mm wide, at "
                  f"{self.speed:.2f} m/s; air leaves through {self.vents_chosen}: {len(self.vents) + 1} faces",
                  f"{1e6 * cubes.volume():.4g} cm3, {self.material['density'] * cubes.volume():.4g} kg of "
-                 f"{self.pouring - 273.15:.0f} degC in {self.time:.3g} s"]
+                 f"{self.pouring - 273.15:.0f} degC in {self.time:.3g} s, {self.drive.described()}" + ", the mould turns" * self.tilt.turns()]
         if self.wall < 3 * self.cavity.cubes.edge:
             lines.append("  less than three cubes across the wall: times and temperatures are a first answer; more cells give better ones")
         if across < FEW:
@@ -120,7 +121,7 @@ def flow_of(mould, melt):
     # The change of phase relaxes within two of the longest steps: then mush is 2 steps times the cooling rate off, 5 K at most.
     rate = 0.5 * melt.heat * melt.freezing / (melt.latent * step)
     direction = mould.gate.direction * mould.speed
-    return dictionaries.Flow(tuple(mould.gravity), tuple(direction), mould.pouring, mould.air, rate, step)
+    return dictionaries.Flow(tuple(mould.tilt.gravity(0)), tuple(direction), mould.pouring, mould.air, rate, step)
 
 
 def write_case(folder, mould, melt, flow, processes):
@@ -183,10 +184,14 @@ def stretch_end(at):
     return at + (STRETCH if 1 <= at < FRAMES - 6 else 1)
 
 
-def set_vents(mould, run, history):
-    """Sets the speed of the gas through each face of vents for the next stretch."""
+def set_speeds(mould, run, history, flow):
+    """Sets the speed of the metal in the gate, which brings a flow [m3/s], and that of the gas through each face of vents for the next
+    stretch."""
     cavity, area = mould.cavity, mould.cavity.cubes.edge ** 2
-    speeds = dictionaries.vent_speeds(history.metal[cavity.faces[mould.vents]], mould.flow, area) if len(mould.vents) else []
+    speeds = dictionaries.vent_speeds(history.metal[cavity.faces[mould.vents]], flow, area) if len(mould.vents) else []
+    if mould.drive.kind() != "rate":
+        velocity = mould.gate.direction * flow / mould.drive.area
+        run.change_patch(history.name, "U", "gate", lambda _: dictionaries.gate_velocity(velocity))
     for wall in mould.walls:
         if wall.passes_gas():
             of_wall = speeds[np.searchsorted(mould.vents, wall.faces)]
@@ -198,25 +203,36 @@ def set_vents(mould, run, history):
                                  lambda faces, s=shares.astype(float): dictionaries.vent_share(s[faces]))
 
 
+def set_walls(mould, run, flow, history, duration):
+    """Sets what walls take for the next stretch."""
+    wet = wetted(mould.cavity.cubes, history.metal)
+    for wall in mould.walls:
+        conductance = wall.begin(duration, wet)
+        if history.frame > 0:
+            run.change_patch(history.name, "T", wall.name, lambda faces, w=wall, h=conductance: dictionaries.wall_entry(
+                h[faces], w.mould, flow.air))
+
+
 def fill(mould, run, flow, history, watch):
     """Computes until the mould is full; the reason why it ended."""
-    frame = mould.time / FRAMES
+    part = mould.drive.volume / FRAMES
     while True:
         at = history.frame
         if history.full >= FULL:
             return "full"
         if at >= LATEST * FRAMES:
             return "late"
+        # A stretch brings a volume; the drive tells how long that takes.
         until = stretch_end(at)
-        duration = (until - at) * frame
-        wet = wetted(mould.cavity.cubes, history.metal)
-        for wall in mould.walls:
-            conductance = wall.begin(duration, wet)
-            if at > 0:
-                run.change_patch(history.name, "T", wall.name, lambda faces, w=wall, h=conductance: dictionaries.wall_entry(
-                    h[faces], w.mould, flow.air))
-        set_vents(mould, run, history)
-        dictionaries.write_control(run.folder, flow, until * frame, frame)
+        duration = mould.drive.next(history.time, history.flowed(history.time), part * (until - at))
+        if duration is None:
+            return "stands"
+        history.plan(duration, part * (until - at))
+        set_walls(mould, run, flow, history, duration)
+        set_speeds(mould, run, history, part * (until - at) / duration)
+        if mould.tilt.turns():
+            dictionaries.write_gravity(run.folder, mould.tilt.gravity(history.time + 0.5 * duration))
+        dictionaries.write_control(run.folder, flow, history.time + duration, duration / (until - at))
         watch.next_stretch()
         try:
             run.run(watch)
@@ -225,7 +241,7 @@ def fill(mould, run, flow, history, watch):
                 return "crawls"
             raise FlowError(f"steps became {CRAWLS} times shorter when {100 * history.full:.0f} % of the mould was full: air leaves too fast "
                             "for them; a slower rate, more vents, or another gate helps") from None
-        history.take(run, at, until)
+        history.take(run, until)
 
 
 def processes_for(option, cells):
@@ -266,6 +282,7 @@ def run(options):
     print(mould.described())
     if found != TESTED:
         print(f"OpenFOAM {found} is not the version that was tested, {TESTED}: what it gives is not known to be right", file=sys.stderr)
+    print(f"OpenFOAM {found}: {filling_trust.told(filling_trust.errors(found))}", flush=True)
     processes = processes_for(options.processes, len(mould.cavity.cubes.cells))
     melt = mould.melt()
     flow = flow_of(mould, melt)

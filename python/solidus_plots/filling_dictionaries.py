@@ -82,6 +82,11 @@ def vent_speeds(metal, flow, area):
     return flow / area * gas / gas.sum()
 
 
+def gate_velocity(velocity):
+    """The entry of U for the gate."""
+    return "type fixedValue; value uniform ({:.12g} {:.12g} {:.12g});".format(*velocity)
+
+
 def vent_share(shares):
     """The entry of the share of a phase for faces of vents [face]: of gas alone on those through which it passes, of melt on those that
     are shut, which give off its heat."""
@@ -107,10 +112,9 @@ def write_fields(folder, flow, walls):
     through sand or a slit; its speed is set for each stretch. Through the leak, a single face, nothing is left to pass; it gives the
     pressure its level. walls: {name of a patch of walls or vents: the entry of T}; \"free\" lets metal
     slip."""
-    velocity = "({:.9g} {:.9g} {:.9g})".format(*flow.velocity)
     sticky, still = "wall_.*", "type fixedValue; value uniform (0 0 0);"
     field(folder, "0/U", "uniform (0 0 0)", {
-        "gate": f"type fixedValue; value uniform {velocity};",
+        "gate": gate_velocity(flow.velocity),
         "leak": still, **{name: still for name in walls if name.startswith("vent")}, sticky: "type noSlip;", "free": "type slip;"},
         "volVectorField")
     field(folder, "0/p_rgh", f"uniform {AIR_PRESSURE:g}", {
@@ -180,7 +184,12 @@ massTransferModel
 );
 """)
     dictionary(folder, "constant/turbulenceProperties", "simulationType laminar;\n")
-    dictionary(folder, "constant/g", "dimensions [0 1 -2 0 0 0 0];\nvalue ({:.9g} {:.9g} {:.9g});\n".format(*flow.gravity),
+    write_gravity(folder, flow.gravity)
+
+
+def write_gravity(folder, gravity):
+    """gravity: three numbers [m/s2]."""
+    dictionary(folder, "constant/g", "dimensions [0 1 -2 0 0 0 0];\nvalue ({:.9g} {:.9g} {:.9g});\n".format(*gravity),
                "uniformDimensionedVectorField")
 
 

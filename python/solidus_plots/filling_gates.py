@@ -113,20 +113,22 @@ def gate_of(cavity, filling, gating, up, flow):
     return Gate(faces, direction, chosen, cavity.cubes.edge * len(faces) ** 0.5)
 
 
-def ceilings(cavity, up):
-    """Faces under which rising metal would shut air in: all that look up."""
-    return np.flatnonzero(cavity.directions @ up > 0.5)
+def ceilings(cavity, ups):
+    """Faces under which rising metal would shut air in: all that look up in a position of the mould."""
+    return np.flatnonzero(np.max([cavity.directions @ up for up in ups], axis=0) > 0.5)
 
 
-def vents_of(cavity, filling, up, gate):
-    """The faces of all vents, none of them of the gate, the highest one last; and how they came about, in words."""
+def vents_of(cavity, filling, ups, gate):
+    """The faces of all vents, none of them of the gate, the highest one last; and how they came about, in words. ups: the upward
+    directions of the mould on its way."""
+    up = ups[-1]
     if filling.get("vents"):
         marked = [near(cavity, group) for group in filling["vents"]]
         if not all(group.any() for group in marked):
             raise ResultError("the faces of a vent do not lie on the skin of what is cast: vents in [filling]")
         found, words = np.flatnonzero(np.any(marked, axis=0)), "the vents that are given"
     else:
-        found, words = ceilings(cavity, up), "all ceilings, chosen by the program"
+        found, words = ceilings(cavity, ups), "all ceilings, chosen by the program"
     found = np.setdiff1d(found, gate.faces)
     if not len(found):
         # A gate that is all of the top leaves the way out to the faces around it.

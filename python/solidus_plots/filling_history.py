@@ -31,6 +31,7 @@ class History:
         n = len(mould.cavity.cubes.cells)
         self._folder, self._mould, self._melt, self.made_of = folder, mould, melt, made_of
         self.frame, self.name, self.time, self.full = 0, "0", 0.0, 0.0
+        self.came = [(0.0, 0.0)]  # times, and the volumes that have come through the gate until then [m3]
         self.corrected = 0.0  # volume that was handed to other cubes, of the cavity's
         self.fill_time, self.arrival = np.full(n, np.nan), np.full(n, np.nan)
         self.front_velocity = np.full((n, 3), np.nan)
@@ -39,7 +40,11 @@ class History:
 
     # --- what the flow has computed --------------------------------------------------------------------------
 
-    def take(self, run, begin, until):
+    def plan(self, duration, volume):
+        """What comes in the next stretch of time [m3]."""
+        self.came.append((self.time + duration, self.came[-1][1] + volume))
+
+    def take(self, run, until):
         """Reads the frames of a stretch, which the walls have seen as one."""
         frames = [(time, name) for time, name in run.times() if time > self.time * (1 + 1e-9) + 1e-15]
         moments = [self._moment()]
@@ -50,6 +55,7 @@ class History:
             if not wall.insulating():
                 wall.end(moments, self.metal, self._melt.conductivity, dictionaries.gas_conductivity())
         self._correct_volume(run)
+        self._observe(run)
         self.frame = until
         self._save()
         for time, name in run.times():
@@ -77,14 +83,14 @@ class History:
         self.temperature, self.metal, self.solid = temperature, metal, np.clip(solid, 0, metal)
         self.time, self.name, self.full = time, name, float(metal.mean())
         self.levels.append(np.round(255 * metal).astype(np.uint8))
-        self.rows.append([time, 100 * self.full, self._flowed(time), self.heat_of_walls(),
+        self.rows.append([time, 100 * self.full, self.flowed(time), self.heat_of_walls(),
                           float(temperature[metal > 0.5].min()) if (metal > 0.5).any() else np.nan])
 
     def _correct_volume(self, run):
         """The solver scales its three shares to a sum of one in every step, by which metal comes and goes at the front, and a cube from
         which air leaves faster than it comes ends up with more metal than it can hold. Both are set right after each stretch."""
         n = len(self.metal)
-        self.metal = full_volume(self._raw, self._flowed(self.time) / self._mould.cavity.cubes.edge ** 3)
+        self.metal = full_volume(self._raw, self.flowed(self.time) / self._mould.cavity.cubes.edge ** 3)
         self.solid = np.clip(self.solid, 0, self.metal)
         self.corrected += float(np.abs(self.metal - self._raw).sum()) / n
         for field, values in (("gas", 1 - self.metal), ("melt", self.metal - self.solid), ("solid", self.solid)):
@@ -93,9 +99,18 @@ class History:
         self.levels[-1] = np.round(255 * self.metal).astype(np.uint8)
         self.rows[-1][1] = 100 * self.full
 
-    def _flowed(self, time):
+    def _observe(self, run):
+        """Tells a drive by pressure what it works against: the metal behind the gate."""
+        drive, gate = self._mould.drive, self._mould.gate
+        if drive.kind() == "pressure":
+            (begin, before), (end, after) = self.came[-2:]
+            behind = run.read(self.name, "p")[self._mould.cavity.faces[gate.faces]].mean() - dictionaries.AIR_PRESSURE
+            drive.observe(self.time, self.full, behind, (after - before) / (end - begin) / drive.area)
+
+    def flowed(self, time):
         """The volume that has come through the gate [m3]."""
-        return self._mould.flow * time
+        times, volumes = zip(*self.came)
+        return float(np.interp(time, times, volumes))
 
     def heat_of_walls(self):
         return float(sum(wall.heat.sum() for wall in self._mould.walls))
@@ -110,6 +125,7 @@ class History:
     def _save(self):
         walls = {f"{wall.name}.{what}": getattr(wall, what) for wall in self._mould.walls for what in ("contact", "heat")}
         numbers = {"frame": self.frame, "name": self.name, "time": self.time, "full": self.full, "corrected": self.corrected,
+                   "came": self.came, "resistance": self._mould.drive.resistance,
                    "made_of": self.made_of, "rows": self.rows}
         target = self._folder / STATE
         with target.with_suffix(".part").open("wb") as out:
@@ -128,6 +144,8 @@ class History:
                 return False
             self.frame, self.name, self.time, self.full = (numbers[key] for key in ("frame", "name", "time", "full"))
             self.corrected, self.rows, self.levels = numbers["corrected"], numbers["rows"], list(kept["levels"])
+            self.came = [tuple(entry) for entry in numbers["came"]]
+            self._mould.drive.resistance = numbers["resistance"]
             for what in ("fill_time", "arrival", "front_velocity", "temperature", "metal", "solid"):
                 setattr(self, what, kept[what])
             for wall in self._mould.walls:

@@ -161,7 +161,7 @@ def place_text(place):
 def balances(mould, melt, history):
     """Volume and heat that came through the gate against what is there; heat counted from the metal's freezing to solid."""
     edge3 = mould.cavity.cubes.edge ** 3
-    came, there = mould.flow * history.time, float(history.metal.sum() * edge3)
+    came, there = history.flowed(history.time), float(history.metal.sum() * edge3)
     lost = float((history.heat_lost() * history.metal).sum() * edge3 * melt.density)
     brought = came * melt.density * (melt.heat * (mould.pouring - melt.freezing) + melt.latent)
     return {"came": came, "there": there, "lost": lost, "walls": history.heat_of_walls(), "brought": brought,
@@ -176,6 +176,9 @@ def answers(mould, melt, history, ended, balance):
     if ended == "crawls":
         lines.append(f"{100 * history.full:.1f} % of the cavity are full after {history.time:.3g} s, where the flow was given up: the air that is left "
                      "goes by the last vents, too fast for its steps; freezing starts from the temperatures there")
+    elif ended == "stands":
+        lines.append(f"NOT filled: the metal stands at {100 * history.full:.1f} % of the cavity since {history.time:.3g} s: the pressure lifts it no higher, "
+                     "or it has frozen on its way")
     elif ended == "full" or history.full >= NEARLY:
         lines.append(f"filled after {history.time:.3g} s: {100 * history.full:.1f} % of the cavity"
                      + ("" if ended == "full" else ", the rest is air that found no way out"))
@@ -223,7 +226,7 @@ def write(folder, mould, melt, history, ended, seconds):
     write_grid(folder / "filling.vtu", grid)
     write_csv(folder / "filling.csv", ["t[s]", "full[%]", "through the gate[m3]", "heat of the walls[J]", "coldest metal[K]"], history.rows)
     lines = answers(mould, melt, history, ended, balance)
-    summary = {"made_of": history.made_of, "ended": ended, "time": history.time, "full": history.full, "gate_speed": mould.speed,
+    summary = {"made_of": history.made_of, "ended": ended, "driven": mould.drive.kind(), "time": history.time, "full": history.full, "gate_speed": mould.speed,
                "cells": len(mould.cavity.body), "edge": mould.cavity.cubes.edge, "seconds": round(seconds, 2), "balance": balance,
                "answers": lines}
     (folder / "filling.json").write_text(json.dumps(summary, indent=2) + "\n")

@@ -31,6 +31,34 @@ Section<FillingSpec> filling_keys() {
           "Until the mould is full, at a steady rate. Absent, as `rate`: 1.6 s times the cube root of the "
           "thickness of the wall in mm times the mass in kg.");
   s.quantity("rate", &F::rate, "kg/s").positive().doc("Of the metal, in place of `time`.");
+  s.quantity("head", &F::head, "m")
+      .positive()
+      .doc(
+          "Height of the metal above the gate that drives it in, in place of `time`: what freezes or rises "
+          "in the mould slows it.");
+  s.quantity("times", &F::times, "s")
+      .initially(Value::list())
+      .doc("Times from the start of filling at which speed, pressure or tilt are given, rising from 0 s.");
+  s.quantity("speed", &F::speed, "m/s")
+      .initially(Value::list())
+      .doc(
+          "Of the metal in the gate at `times`, straight between them and kept after the last: a shot with "
+          "its "
+          "slow and its fast part.");
+  s.quantity("pressure", &F::pressure, "Pa")
+      .initially(Value::list())
+      .doc(
+          "Above the atmosphere in the gate at `times`, straight between them: low pressure from below. "
+          "Metal "
+          "comes as far as it lifts it.");
+  s.quantity("tilt", &F::tilt, "rad")
+      .initially(Value::list())
+      .doc(
+          "Angle by which the mould has turned about tilt_axis at `times`, straight between them; the mesh "
+          "stands as at 0 and gravity turns the other way.");
+  s.key("tilt_axis", &F::tilt_axis)
+      .initially(Value::list())
+      .doc("Direction of the axis of tilt, three numbers; by the rule of the right hand.");
   s.quantity("temperature", &F::temperature, "K")
       .positive()
       .doc("Of the metal in the gate. Absent: the highest initial temperature of what is cast.");

@@ -16,6 +16,12 @@ struct FillingSpec {
   std::optional<double> gate_width;   ///< of the square at gate_at [m]; absent: by the speed
   std::optional<double> time;         ///< from the first metal to the full mould [s]
   std::optional<double> rate;         ///< of the metal [kg/s]
+  std::optional<double> head;         ///< of metal above the gate, which drives it in [m]
+  std::vector<double> times;          ///< at which speed, pressure or tilt are given [s]
+  std::vector<double> speed;          ///< in the gate at these times [m/s]
+  std::vector<double> pressure;       ///< above the atmosphere in the gate at these times [Pa]
+  std::vector<double> tilt;           ///< angle of the mould at these times, of its position at first [rad]
+  std::vector<double> tilt_axis;      ///< about which it turns, three numbers
   std::optional<double> temperature;  ///< of the metal in the gate [K]; absent: that of the castings
   std::vector<std::string> vents;     ///< groups of faces; empty: the highest places
   int cells = 0;                      ///< of the cavity, about

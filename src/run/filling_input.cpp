@@ -147,6 +147,11 @@ Json filling_json(const cases::FillingSpec& f, const mesh::Mesh& mesh) {
   if (f.gate_width) json.add("gate_width", *f.gate_width);
   if (f.time) json.add("time", *f.time);
   if (f.rate) json.add("rate", *f.rate);
+  if (f.head) json.add("head", *f.head);
+  if (!f.times.empty()) json.add("times", list(f.times));
+  if (!f.speed.empty()) json.add("speed", list(f.speed));
+  if (!f.pressure.empty()) json.add("pressure", list(f.pressure));
+  if (!f.tilt.empty()) json.add("tilt", list(f.tilt)).add("tilt_axis", list(f.tilt_axis));
   if (f.temperature) json.add("pouring", *f.temperature);
   Json::Array vents;
   for (const std::string& vent : f.vents) vents.push_back(triangles_of(mesh, vent, f.where));

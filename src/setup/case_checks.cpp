@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "cases/stage_input.hpp"
@@ -330,6 +331,46 @@ void check_output(const cases::OutputSpec& o) {
   check(o.stress_unit, "Pa", "stress_unit", "\"MPa\", \"ksi\", ...");
 }
 
+/// Values of [filling] over its times.
+void check_over_times(const cases::FillingSpec& filling, const std::vector<double>& values, const char* key,
+                      bool negative) {
+  if (values.empty()) return;
+  if (values.size() != filling.times.size())
+    throw InputError(
+        filling.where,
+        fmt::format("'{}' has {} values and 'times' {}", key, values.size(), filling.times.size()),
+        "as many as times");
+  if (!negative && std::ranges::any_of(values, [](double v) { return v < 0; }))
+    throw InputError(filling.where, fmt::format("'{}' is negative at a time", key), "0 or more");
+  if (!negative && std::ranges::all_of(values, [](double v) { return v == 0; }))
+    throw InputError(filling.where, fmt::format("'{}' is zero at all times: no metal comes", key),
+                     "more than 0 at a time");
+}
+
+/// What drives the metal in, and how the mould turns.
+void check_drive(const cases::FillingSpec& filling) {
+  // One thing alone says how fast the metal comes.
+  const int drives = filling.time.has_value() + filling.rate.has_value() + filling.head.has_value() +
+                     !filling.speed.empty() + !filling.pressure.empty();
+  if (drives > 1)
+    throw InputError(filling.where, "[filling] says more than once how fast the metal comes",
+                     "time or rate or head, or speed or pressure over times");
+  // Times begin with the filling and rise.
+  if (!filling.times.empty() && filling.times.front() != 0)
+    throw InputError(filling.where, "'times' do not begin with 0 s", "0 s first");
+  if (std::ranges::adjacent_find(filling.times, std::greater_equal<>()) != filling.times.end())
+    throw InputError(filling.where, "'times' do not rise", "each later than the one before");
+  if (!filling.times.empty() && filling.speed.empty() && filling.pressure.empty() && filling.tilt.empty())
+    throw InputError(filling.where, "nothing is given over 'times'", "speed, pressure or tilt");
+  check_over_times(filling, filling.speed, "speed", false);
+  check_over_times(filling, filling.pressure, "pressure", false);
+  check_over_times(filling, filling.tilt, "tilt", true);
+  // An axis has a direction.
+  const bool turns = std::ranges::any_of(filling.tilt_axis, [](double x) { return x != 0; });
+  if (!filling.tilt.empty() && (filling.tilt_axis.size() != 3 || !turns))
+    throw InputError(filling.where, "'tilt' needs the direction of its axis", "tilt_axis = [0, 1, 0]");
+}
+
 /// What the keys of [filling] say together and of the analysis.
 void check_filling(const cases::CaseSpec& spec) {
   if (!spec.filling) return;
@@ -349,8 +390,7 @@ void check_filling(const cases::CaseSpec& spec) {
   if (filling.gate && filling.gate_width)
     throw InputError(filling.where, "'gate_width' is that of a square at gate_at, and `gate` names its faces",
                      "one of both");
-  if (filling.time && filling.rate)
-    throw InputError(filling.where, "the time of filling and the rate say the same", "time or rate");
+  check_drive(filling);
 }
 
 }  // namespace

@@ -74,11 +74,21 @@ class FillTest(ProgramTest):
 
     def test_bad_input_is_refused_in_one_sentence(self):
         self.assertIn("the gate is given twice", self.refusal("--set", "filling.gate='upper_x_min'"))
-        self.assertIn("time or rate", self.refusal("--set", "filling.rate='1 kg/s'"))
+        self.assertIn("more than once how fast", self.refusal("--set", "filling.rate='1 kg/s'"))
         self.assertIn("no group of faces 'nowhere'", self.refusal("--set", "filling.gate_at=[]", "--set", "filling.gate='nowhere'"))
         case = (self.folder / "case.toml").read_text()
         (self.folder / "case.toml").write_text(case[:case.index("[filling]")])
         self.assertIn("does not say how the mould is filled", self.refusal())
+
+    def test_what_drives_the_metal_is_said_once_and_over_rising_times(self):
+        case = (self.folder / "case.toml").read_text()
+        (self.folder / "case.toml").write_text("".join(line for line in case.splitlines(True) if not line.startswith("time = ")))
+        for words, *changes in (("more than once how fast", "head='0.1 m'", "rate='1 kg/s'"), ("direction of its axis", "times=['0 s']", "tilt=['0 degree']"),
+                                ("'pressure' has 1 values", "times=['0 s','1 s']", "pressure=['1 kPa']"), ("begin with 0 s", "times=['1 s','2 s']"),
+                                ("do not rise", "times=['0 s','0 s']"), ("zero at all times", "times=['0 s']", "speed=['0 m/s']"),
+                                ("nothing is given", "times=['0 s']")):
+            with self.subTest(words):
+                self.assertIn(words, self.refusal(*(word for change in changes for word in ("--set", f"filling.{change}"))))
 
     def test_a_new_case_gets_a_gate(self):
         part = SOURCES / "tests/parts/dumbbell.step"

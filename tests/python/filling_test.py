@@ -9,12 +9,13 @@ import unittest
 import numpy as np
 
 from solidus_plots import filling_dictionaries as dictionaries
-from solidus_plots import filling_film, filling_flow, filling_gates, filling_walls
+from solidus_plots import filling_film, filling_flow, filling_gates, filling_trust, filling_walls
 from solidus_plots.filling_cavity import cavity_of
+from solidus_plots.filling_drive import Drive, Tilt
 from solidus_plots.filling_history import full_volume
 from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
 from solidus_plots.filling_results import start_of, state_at
-from solidus_plots.vtu import Grid
+from solidus_plots.vtu import Grid, ResultError
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -82,7 +83,7 @@ class Gates(unittest.TestCase):
         heights = cavity.face_centres()[:, 2]
         self.assertLess(heights[gate.faces].max(), 0.06)
         self.assertGreaterEqual(len(gate.faces), filling_gates.FEW)
-        vents, _ = filling_gates.vents_of(cavity, {"vents": []}, UP, gate)
+        vents, _ = filling_gates.vents_of(cavity, {"vents": []}, [UP], gate)
         self.assertTrue((heights[vents] > 0.0895).all())
         walls = filling_gates.walls_of(cavity, gate, vents)
         self.assertEqual(len(gate.faces) + len(vents) + sum(map(len, walls.values())), len(cavity.faces))
@@ -92,7 +93,7 @@ class Gates(unittest.TestCase):
         """Two legs that rise from a bar: air would be caught in both."""
         cavity = cavity_of(blocks((0.06, 0.02, 0.06), (12, 4, 12), lambda x: (x[:, 2] < 0.02) | (np.abs(x[:, 0] - 0.03) > 0.015)), [0], 0.005)
         gate = filling_gates.gate_of(cavity, {"gate_at": [0.03, 0.01, 0.0]}, [], UP, 1e-4)
-        vents, _ = filling_gates.vents_of(cavity, {"vents": []}, UP, gate)
+        vents, _ = filling_gates.vents_of(cavity, {"vents": []}, [UP], gate)
         tops = cavity.face_centres()[vents]
         for x in (0.01, 0.05):
             self.assertTrue(((np.abs(tops[:, 0] - x) < 0.01) & (tops[:, 2] > 0.055)).any())
@@ -210,6 +211,61 @@ class Vents(unittest.TestCase):
             self.assertIn("\n    vent_1\n    {", (folder / "0/U").read_text())
             for file in (*folder.glob("system/*"), *folder.glob("0/*")):
                 self.assertNotRegex(file.read_text(), "functions|expr|coded")
+
+
+class Drives(unittest.TestCase):
+    """A plate of 60 mm whose gate is a square of 20 mm in the middle of its lower face."""
+
+    def drive(self, filling, flow=1e-4):
+        cavity = plate()
+        gate = filling_gates.gate_of(cavity, {"gate_at": [0.08, 0.04, 0.03], "gate_width": 0.02}, [], UP, flow)
+        return Drive(filling, cavity, gate, 2500.0, flow, Tilt(filling, [0.0, 0.0, -9.81]))
+
+    def test_a_steady_rate_takes_volume_over_flow(self):
+        drive = self.drive({})
+        self.assertAlmostEqual(drive.time, 1.2e-4 / 1e-4, delta=1e-9)
+        self.assertAlmostEqual(drive.next(0.3, 3e-5, 1e-6), 0.01, delta=1e-12)
+
+    def test_a_shot_is_slow_and_then_fast(self):
+        """0.1 m/s for 1 s and 1 m/s from 1.1 s on: the integral of straight lines."""
+        drive = self.drive({"times": [0, 1, 1.1], "speed": [0.1, 0.1, 1.0]})
+        slow, ramp = 0.1 * drive.area, 0.055 * drive.area
+        self.assertLess(slow + ramp, drive.volume)
+        self.assertAlmostEqual(drive.time, 1.1 + (drive.volume - slow - ramp) / drive.area, delta=1e-6)
+        self.assertAlmostEqual(drive.next(0, 0, slow), 1, delta=1e-9)
+        with self.assertRaisesRegex(ResultError, "bring [0-9]+ % of the cavity"):
+            self.drive({"times": [0, 0.1], "speed": [0.2, 0.0]})
+
+    def test_a_head_drives_as_torricelli_says_and_lifts_as_high_as_it_is(self):
+        drive = self.drive({"head": 0.5})
+        self.assertAlmostEqual(1e-7 / drive.area / drive.next(0, 0, 1e-7), sqrt(2 * 9.81 * 0.5), delta=0.02)
+        self.assertIsNone(self.drive({"head": 0.03}).next(1.0, 0.8 * 1.2e-4, 1e-6))
+        # What resists slows: R v^2 beside rho/2 v^2.
+        drive.observe(0.1, 0.0, 3 * 0.5 * 2500 * 4.0, 2.0)
+        drive.observe(0.2, 0.0, 3 * 0.5 * 2500 * 4.0, 2.0)
+        self.assertGreater(drive.resistance, 0.5 * 2500)
+
+    def test_low_pressure_lifts_the_metal_as_it_rises(self):
+        """Slowly, by 100 Pa a second: the level follows the pressure, and its top is reached when P = rho g z."""
+        drive = self.drive({"times": [0, 20], "pressure": [0, 2000]})
+        self.assertAlmostEqual(drive.time, 2500 * 9.81 * 0.06 / 100, delta=0.05 * drive.time)
+
+    def test_gravity_turns_the_other_way_than_the_mould(self):
+        tilt = Tilt({"times": [0, 2], "tilt": [0, np.pi / 2], "tilt_axis": [0, 1, 0]}, [0.0, 0.0, -9.81])
+        np.testing.assert_allclose(tilt.gravity(0), [0, 0, -9.81], atol=1e-12)
+        # The top of the mould turns towards x: what falls in it falls towards x.
+        np.testing.assert_allclose(tilt.gravity(2), [9.81, 0, 0], atol=1e-12)
+        self.assertEqual(len(tilt.positions()), 9)
+
+
+class Trust(unittest.TestCase):
+    def test_what_a_build_can_be_trusted_with_is_told(self):
+        self.assertIn("breaks down, so no other meshes", filling_trust.told({"cubes": 1e-15, "sheared": float("inf")}))
+        self.assertIn("wrong by 56 %, so no other meshes", filling_trust.told({"cubes": 1e-15, "sheared": 0.56}))
+        self.assertIn("and in sheared cells within 1e-03", filling_trust.told({"cubes": 1e-15, "sheared": 1e-3}))
+        for wrong in (0.3, float("nan")):
+            with self.assertRaisesRegex(filling_flow.FlowError, "worth nothing"):
+                filling_trust.told({"cubes": wrong, "sheared": 0.0})
 
 
 class Volumes(unittest.TestCase):
