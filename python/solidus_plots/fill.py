@@ -203,6 +203,13 @@ def set_speeds(mould, run, history, flow):
                                  lambda faces, s=shares.astype(float): dictionaries.vent_share(s[faces]))
 
 
+def short_number(interval, whole):
+    """A time between moments with so few digits that the names of moments are exact: OpenFOAM lengthens others on the way, and a later run
+    does not find them."""
+    digits = 6 - int(np.floor(np.log10(whole)))
+    return max(round(interval, digits), 10.0 ** -digits)
+
+
 def set_walls(mould, run, flow, history, duration):
     """Sets what walls take for the next stretch."""
     wet = wetted(mould.cavity.cubes, history.metal)
@@ -227,12 +234,14 @@ def fill(mould, run, flow, history, watch):
         duration = mould.drive.next(history.time, history.flowed(history.time), part * (until - at))
         if duration is None:
             return "stands"
+        interval = short_number(duration / (until - at), mould.time)
+        duration = interval * (until - at)
         history.plan(duration, part * (until - at))
         set_walls(mould, run, flow, history, duration)
         set_speeds(mould, run, history, part * (until - at) / duration)
         if mould.tilt.turns():
             dictionaries.write_gravity(run.folder, mould.tilt.gravity(history.time + 0.5 * duration))
-        dictionaries.write_control(run.folder, flow, history.time + duration, duration / (until - at))
+        dictionaries.write_control(run.folder, flow, history.time + duration, interval)
         watch.next_stretch()
         try:
             run.run(watch)

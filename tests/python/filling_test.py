@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 from solidus_plots import filling_dictionaries as dictionaries
-from solidus_plots import filling_film, filling_flow, filling_gates, filling_trust, filling_walls
+from solidus_plots import fill, filling_film, filling_flow, filling_gates, filling_trust, filling_walls
 from solidus_plots.filling_cavity import cavity_of
 from solidus_plots.filling_drive import Drive, Tilt
 from solidus_plots.filling_history import full_volume
@@ -256,6 +256,14 @@ class Drives(unittest.TestCase):
         # The top of the mould turns towards x: what falls in it falls towards x.
         np.testing.assert_allclose(tilt.gravity(2), [9.81, 0, 0], atol=1e-12)
         self.assertEqual(len(tilt.positions()), 9)
+
+
+class Moments(unittest.TestCase):
+    def test_moments_have_names_that_openfoam_keeps(self):
+        for interval, whole in ((0.0320135754323, 2.6), (3.3e-4, 0.033), (4.123456789, 412.3)):
+            short = fill.short_number(interval, whole)
+            self.assertAlmostEqual(short / interval, 1, delta=1e-3)
+            self.assertEqual(float(f"{50 * short:.10g}"), float(f"{50 * short:.14g}"))
 
 
 class Trust(unittest.TestCase):
