@@ -7,6 +7,7 @@ import numpy as np
 from solidus_plots.vtu import ResultError
 
 GOOD_SPEED = 0.5  # in the gate [m/s]: above it the front of aluminium folds its oxide in (J. Campbell, Castings, 2nd ed. 2003)
+FAR = 4  # cubes from the skin, beyond which a place is none of a gate
 FEW = 4  # cubes across a gate, below which its jet is coarse
 
 
@@ -100,6 +101,9 @@ def gate_of(cavity, filling, gating, up, flow):
     width = filling.get("gate_width") or max(FEW * cavity.cubes.edge, (flow / GOOD_SPEED) ** 0.5)
     if filling.get("gate_at"):
         place, side, chosen = np.array(filling["gate_at"]), None, "at the given place"
+        away = np.linalg.norm(cavity.face_centres() - place, axis=1).min()
+        if away > FAR * cavity.cubes.edge:
+            raise ResultError(f"the gate is {1e3 * away:.3g} mm away from the skin of what is cast: gate_at in [filling], a point near it")
     else:
         free = np.flatnonzero(np.isin(cavity.body[cavity.faces], gating) & (cavity.directions @ up > 0.5))
         if len(free):

@@ -105,6 +105,11 @@ class Gates(unittest.TestCase):
         self.assertAlmostEqual(cavity.face_centres()[gate.faces][:, 2].mean(), 0.06, delta=0.003)
 
 
+    def test_a_gate_far_from_the_casting_is_refused(self):
+        with self.assertRaisesRegex(ResultError, "the gate is 500 mm away"):
+            filling_gates.gate_of(plate(), {"gate_at": [0.03, 0.04, 0.59]}, [], UP, 1e-4)
+
+
 class Films(unittest.TestCase):
     def test_a_film_shows_an_upright_layer(self):
         cavity = plate()
