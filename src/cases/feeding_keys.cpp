@@ -15,6 +15,12 @@ Section<FeedingSpec> feeding_keys() {
       .doc(
           "Follow feeding where criteria are followed and something freezes. With mechanics there is none of "
           "it: mixed elements open pores.");
+  s.key("moves_heat", &F::moves_heat)
+      .initially(false)
+      .doc(
+          "Metal that moves takes its heat along, and emptied places conduct and store as the gas that fills "
+          "them. Off: temperatures are those of a casting that stays full. For one alloy, without stages, "
+          "with the closed rule.");
   s.key("vented", &F::vented)
       .initially(Value::list())
       .doc(

@@ -12,6 +12,7 @@ namespace solidus::cases {
 /// Feeding with heat alone (criteria/feeding.hpp).
 struct FeedingSpec {
   bool follow = true;
+  bool moves_heat = false;                   ///< metal that moves takes its heat along
   std::vector<std::string> vented, covered;  ///< groups of the mesh
   std::optional<double> mould_rigidity;      ///< absent: that of the moulds' cards
   SourceLocation where;

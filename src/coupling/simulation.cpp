@@ -206,14 +206,14 @@ void Simulation::begin(State initial, SolidFraction solid_fraction, const std::o
   p.record.time = p.committed.time;
   // A run that goes on has a state with all that was born before.
   if (from && growth_ != nullptr && growth_->due(p.committed.time)) growth_->grow(p.committed.time, nullptr);
+  if (from && moves_heat_) moves_heat_(p.committed, true);
   if (from) {
     p.shots = from->shots;
     p.carried = from->pending;
     p.stage = from->stage.number > 0 ? static_cast<std::size_t>(from->stage.number) - 1 : 0;
     if (periodic(p)) return end_at_once(p, from->stage);
   }
-  const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),
-                                  [&](const Stage& s) { return s.end > p.committed.time; });
+  const auto ahead = std::ranges::upper_bound(options_.stages, p.committed.time, {}, &Stage::end);
   if (ahead == options_.stages.end() && from) return end_at_once(p, from->stage);
   if (ahead == options_.stages.end()) throw std::invalid_argument("the end time must lie after the start");
   // A run that goes on from the end of a shot changes bodies as one that has not stopped.
@@ -329,13 +329,12 @@ std::size_t Simulation::stage() const {
 }
 
 PlannedStep Simulation::plan(const Progress& p) const {
-  const double time = p.committed.time;
   const StepOptions& options = options_.stages[p.stage].step;
+  const double time = p.committed.time, least = options.limits.last_melt;
   LongestStep longest;
   // A casting is solid somewhere in the step in which its last melt freezes, and contracts fast then. Steps
   // go with the root of the error allowed, from a quarter of the step asked for on, which mush begins with.
   const double looser = std::sqrt(options.limits.temperature / StepLimits{}.temperature);
-  const double least = options.limits.last_melt;
   const double left = looser * longest_before_solid(1 - p.solid_fraction, time - p.committed.poured, least);
   if (least > 0 && p.solid_fraction < k_solid) longest = {std::max(left, 0.25 * options.step), "last melt"};
   const PlannedStep step = p.control->plan(time, longest);
@@ -431,6 +430,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
     criteria_->step({p.committed.time - p.committed.poured, p.committed.heat, p.committed.mechanics},
                     {p.trial.time - p.committed.poured, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
   std::swap(p.committed, p.trial);
+  move_heat(p.committed);
   p.step->commit();
   check_limits(p, step, measure);
   p.control->accepted(step, measure);

@@ -76,6 +76,12 @@ class Simulation {
   void follow_loads(const heat::ThermalPhase& heat) { loads_ = &heat; }
   /// Lets bodies grow between steps; adaptive steps end where elements are born. Must outlive the simulation.
   void follow_growth(Growth& growth) { growth_ = &growth; }
+  /// Called after each step that is committed, before observers see its end: moves heat with the metal that
+  /// the criteria have moved in it. Collective.
+  /// @param state  of which the criteria are those of its time
+  /// @param has_moved  the state has the moved heat already: a run goes on
+  using MovesHeat = std::function<void(State& state, bool has_moved)>;
+  void follow_metal(MovesHeat moves) { moves_heat_ = std::move(moves); }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
@@ -158,6 +164,8 @@ class Simulation {
   void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
+  /// Moves heat with the metal of a step that is committed, where it moves.
+  void move_heat(State& state);
   std::vector<TimeEvent> events(const Progress& p) const;
   bool checkpoint_due(const StepRecord& record) const;
   /// Writes a checkpoint of the committed state, from which a run goes on with this step control.
@@ -175,6 +183,7 @@ class Simulation {
   Growth* growth_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
+  MovesHeat moves_heat_;  ///< empty: heat stays where it is
   InternalEnergy internal_energy_;
   Diagnose diagnose_;
   const ShotMap* shot_map_ = nullptr;

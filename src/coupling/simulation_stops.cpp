@@ -16,4 +16,10 @@ bool Simulation::stop_asked() const {
   return stop_asked_ && parallel::any_process(stop_asked_());
 }
 
+void Simulation::move_heat(State& state) {
+  if (!moves_heat_) return;
+  moves_heat_(state, false);
+  scheme_->synchronise(state);
+}
+
 }  // namespace solidus::coupling

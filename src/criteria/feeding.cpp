@@ -106,9 +106,11 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
     // Metal that is poured next to it takes on the volume of the metal that is there, as if it froze at once:
     // the balance has one volume a node.
     const double present = 1 + rows(i, k_thermal) + rows(i, k_phase);
-    for (const FeedingNumber number : {k_metal, k_drained, k_pipe, k_sink, k_cavity, k_pores, k_gas, k_wall})
+    for (const FeedingNumber number :
+         {k_metal, k_drained, k_pipe, k_sink, k_cavity, k_pores, k_gas, k_wall, k_poured})
       rows(i, number) *= kept;
     rows(i, k_metal) += (1 - kept) / present;
+    rows(i, k_poured) += (1 - kept) / present;
     rows(i, k_room) = now;
     added += now - had;
   }

@@ -23,6 +23,7 @@ enum FeedingNumber : std::size_t {
   k_wall,      ///< room that the wall of the mould has given way to
   k_freezing,  ///< time since the metal began to freeze [s]
   k_pressure,  ///< of the melt in mush, without its weight, from that of the pools on [Pa]
+  k_poured,    ///< metal as it was poured, as k_metal
   k_feeding_numbers
 };
 

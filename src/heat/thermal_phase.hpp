@@ -88,6 +88,13 @@ struct HeatOptions {
   SensibleForm sensible = SensibleForm::enthalpy;
 };
 
+/// Where metal is, after some of it has moved.
+struct MovedMetal {
+  std::span<const char> moves;     ///< [body]: whether its metal moves
+  std::span<const double> held;    ///< metal over that which was poured, [owned node]; one: none has moved
+  std::span<const double> filled;  ///< share of the room that is not emptied, [local node], ghosts up to date
+};
+
 /// Heat of bodies that leave and of bodies that come at a change of conditions, counted from 20 °C [J].
 struct CarriedHeat {
   double away = 0, along = 0;
@@ -142,6 +149,12 @@ class ThermalPhase {
   /// Returns that heat, counted from 20 °C [J].
   double grow(const ThermalConditions& conditions, const std::function<double(Index node, int body)>& fresh,
               ThermalState* state);
+  /// Metal has moved between nodes and takes its heat along: nodes that have lost metal keep their
+  /// temperature, those that have got some get the mean heat of what moved, all of it together. Emptied
+  /// places conduct, and store next to nothing, as gas (docs/decisions/0093). With the closed rule and
+  /// enthalpies, without bodies that come or leave. Collective.
+  /// @param state  gets the heat; null: it has it already
+  void move_metal(const MovedMetal& metal, ThermalState* state);
   /// Heat of the active bodies, counted from 20 °C [J]. With the open rule by the weights of the nodes.
   /// Collective.
   double heat_content(const ThermalState& state) const;
@@ -299,6 +312,10 @@ class ThermalPhase {
   double put_in(const linear::ActiveSet& before, const std::function<double(Index, int)>& fresh,
                 ThermalState& state) const;
   void change_bodies(const linear::ActiveSet& before);
+  std::vector<double> at_least_gas(const MovedMetal& metal) const;
+  bool carry_heat(std::span<const char> moves, std::span<const double> held, ThermalState& state) const;
+  void share_conduction(const MovedMetal& metal);
+  double held_at(Index node) const { return held_.empty() ? 1.0 : held_[static_cast<std::size_t>(node)]; }
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const linear::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;
@@ -312,6 +329,7 @@ class ThermalPhase {
   std::vector<linear::Contribution*> contributions_;
   parallel::GhostExchange ghosts_;
   std::unique_ptr<NodalEnthalpy> storage_;
+  std::vector<double> held_;  ///< of move_metal(), but for what gas stores, [owned node]; empty: one
   std::unique_ptr<NodalEnthalpy> at_nodes_;  ///< of bodies that store there, where it is not all of them
   // The last contributions, in this order.
   std::unique_ptr<PrintedHeat> printed_;        ///< of bodies that store at the nodes, with a printed form

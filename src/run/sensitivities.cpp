@@ -99,6 +99,9 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
   if (!base.spec.depositions.empty())
     throw InputError(base.spec.depositions.front().where, "derivatives of bodies that grow are not there yet",
                      "a case without [[deposition]]");
+  if (base.spec.feeding.moves_heat)
+    throw InputError(base.spec.feeding.where, "derivatives of heat that moves with metal are not there yet",
+                     "moves_heat = false in [feeding]");
   // Columns follow the probes of the base case, and their number decides what is comparable among the
   // neighbours.
   reader_ = std::make_unique<Reader>(base.spec, a);

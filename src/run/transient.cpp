@@ -2,12 +2,14 @@
 #include "run/transient.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "cases/case_materials.hpp"
 #include "cases/stage_input.hpp"
 #include "check/coupling_estimate.hpp"
 #include "coupling/internal_energy.hpp"
+#include "criteria/moved_metal.hpp"
 #include "run/advice.hpp"
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
@@ -127,6 +129,15 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
   if (a.heat) simulation_.follow_loads(*a.heat);
   if (a.growth) simulation_.follow_growth(*a.growth);
   if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
+  if (a.heat && a.criteria && spec.feeding.moves_heat)
+    simulation_.follow_metal([&a, moves = setup::followed_bodies(spec, a.materials, a.start)](
+                                 coupling::State& state, bool has_moved) {
+      const criteria::NodalMetal metal = criteria::metal_at_nodes(state.criteria);
+      if (metal.held.empty()) return;
+      const std::span<const double> owned =
+          std::span(metal.held).first(static_cast<std::size_t>(a.mesh.n_owned_nodes));
+      a.heat->move_metal({moves, owned, metal.filled}, has_moved ? nullptr : &state.heat);
+    });
   simulation_.stop_when(options.stop_asked);
   // Failures are explained by diagnose(), stages are set up by apply(): both need the case, which the
   // simulation does not know.

@@ -393,6 +393,22 @@ void check_filling(const cases::CaseSpec& spec) {
   check_drive(filling);
 }
 
+/// Heat that moves with metal is there for what a run of heat alone with one set of bodies has.
+void check_feeding(const cases::CaseSpec& spec) {
+  if (!spec.feeding.moves_heat) return;
+  const auto refuse = [&](const char* why, const char* instead) {
+    throw InputError(spec.feeding.where, fmt::format("feeding.moves_heat: {}", why), instead);
+  };
+  if (spec.has_mechanics() || !spec.has_heat())
+    refuse("metal moves in runs of heat alone", "moves_heat = false, or a run with --heat-only");
+  if (!spec.feeding.follow || !spec.criteria.follow || spec.time.steady)
+    refuse("no feeding is followed that could move metal", "follow = true in [feeding] and [criteria]");
+  if (spec.heat.integration != heat::HeatIntegration::closed)
+    refuse("the open rule cannot yet", "heat.integration = \"closed\"");
+  if (!spec.stages.empty() || !spec.cycles.empty() || !spec.depositions.empty())
+    refuse("not with stages, shots or bodies that grow yet", "moves_heat = false");
+}
+
 }  // namespace
 
 void check_case(const cases::CaseSpec& spec) {
@@ -418,6 +434,7 @@ void check_case(const cases::CaseSpec& spec) {
   check_profiles(spec);
   check_output(spec.output);
   check_filling(spec);
+  check_feeding(spec);
   probes(spec), profiles(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",

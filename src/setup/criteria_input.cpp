@@ -1,6 +1,8 @@
 /// The case's choices become options of the criteria, with what bodies and gravity add to them.
 #include "setup/criteria_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,6 +78,21 @@ criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh
   return options;
 }
 
+/// Metal that moves has one mean heat, which has no meaning for two alloys.
+void check_one_alloy(const cases::CaseSpec& spec, const std::vector<char>& followed) {
+  const cases::BodySpec* first = nullptr;
+  for (std::size_t b = 0; b < followed.size(); ++b) {
+    if (followed[b] == 0) continue;
+    if (first != nullptr && spec.bodies[b].material != first->material)
+      throw InputError(
+          spec.feeding.where,
+          fmt::format("feeding.moves_heat: '{}' and '{}' are of two materials, '{}' and '{}'", first->name,
+                      spec.bodies[b].name, first->material, spec.bodies[b].material),
+          "one alloy in all that is cast, or moves_heat = false");
+    if (first == nullptr) first = &spec.bodies[b];
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
@@ -87,6 +104,7 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
   const bool melts = std::any_of(materials.begin(), materials.end(),
                                  [](const material::Material& m) { return m.solidification() != nullptr; });
   if (!spec.criteria.follow || !melts || spec.time.steady) return nullptr;
+  if (spec.feeding.moves_heat) check_one_alloy(spec, followed_bodies(spec, materials, start));
   // What every criterion may ask for, gathered once: mesh, materials, phases and the options of the
   // case.
   const criteria::CriterionContext context{

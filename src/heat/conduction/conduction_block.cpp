@@ -118,7 +118,15 @@ class Conduction final : public ConductionBlock {
     }
   }
 
-  std::size_t bytes() const override { return geometry_.bytes() + (slots_ ? slots_->bytes() : 0); }
+  void set_shares(std::span<const double> share) override {
+    shares_.assign(static_cast<std::size_t>(geometry_.n_batches), Lane(1.0));
+    for (std::size_t e = 0; e < share.size(); ++e)
+      shares_[e / k_lanes].set(static_cast<int>(e % k_lanes), share[e]);
+  }
+
+  std::size_t bytes() const override {
+    return geometry_.bytes() + (slots_ ? slots_->bytes() : 0) + shares_.capacity() * sizeof(Lane);
+  }
 
  private:
   using Nodal = std::array<Lane, n_nodes>;
@@ -156,9 +164,11 @@ class Conduction final : public ConductionBlock {
     // part across the edge.
     ConductionMatrix<n_nodes> m{};
     const auto loss = losses_.find(batch);
+    const Lane share =
+        shares_.empty() ? Lane(factor) : Lane(factor) * shares_[static_cast<std::size_t>(batch)];
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane* g = geometry_.gradients_at(batch, q);
-      const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
+      const Lane w = geometry_.weight_at(batch, q) * share;
       for (std::size_t a = 0; a < n_nodes; ++a)
         for (std::size_t b = a; b < n_nodes; ++b) {
           Lane dot = g[a * dim] * g[b * dim];
@@ -180,6 +190,7 @@ class Conduction final : public ConductionBlock {
 
   mesh::BlockGeometry geometry_;
   std::unordered_map<Index, Loss> losses_;  ///< of batches next to edges; zero at first
+  PackVector<Lane> shares_;                 ///< [batch] of set_shares(); empty: one
   const linear::BlockMatrix* matrix_ = nullptr;
   mutable std::optional<linear::LaneSlots> slots_;  ///< from the first tangent on
 };

@@ -35,6 +35,9 @@ class ConductionBlock {
   /// The same with one for all columns, slower: nothing is remembered for the next time, which saves 180
   /// bytes a node of tetrahedra.
   virtual void add_tangent_once(double factor, linear::BlockMatrix& matrix) const = 0;
+  /// From here on elements conduct only a share of what their material does.
+  /// @param share  [element]
+  virtual void set_shares(std::span<const double> share) = 0;
   virtual std::size_t bytes() const = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "heat/conduction/conduction_elements.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesh/block_part.hpp"
 
@@ -14,6 +15,7 @@ ConductionElements::ConductionElements(const mesh::Mesh& mesh, AnalysisKind kind
   for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
   fields_.resize(materials.size());
   blocks_.resize(mesh.blocks.size());
+  shares_.resize(mesh.blocks.size());
   for (std::size_t body = 0; body < fields_.size(); ++body) find_field_nodes(body);
   nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, active_);
 }
@@ -27,6 +29,11 @@ void ConductionElements::set_active(const linear::ActiveSet& active) {
   }
   active_ = active;
   nodal_ = std::make_unique<NodalPotential>(mesh_, potentials_, active_);
+}
+
+void ConductionElements::set_shares(std::size_t block, std::vector<double> share) {
+  shares_[block] = std::move(share);
+  if (blocks_[block]) blocks_[block]->set_shares(shares_[block]);
 }
 
 void ConductionElements::find_field_nodes(std::size_t body) {
@@ -50,6 +57,7 @@ void ConductionElements::bind(linear::BlockMatrix& matrix) {
 ConductionBlock& ConductionElements::block(std::size_t number) {
   if (!blocks_[number]) {
     blocks_[number] = make_conduction_block(mesh_, mesh_.blocks[number], kind_, closed_, edges_);
+    if (!shares_[number].empty()) blocks_[number]->set_shares(shares_[number]);
     blocks_[number]->bind(*matrix_);
   }
   return *blocks_[number];
@@ -90,7 +98,7 @@ void ConductionElements::add_unit(int body) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (mesh_.blocks[b].body != body || !active_.body(body)) continue;
     // Where the result is all that is wanted, the geometry is made for some elements at a time.
-    if (pattern_stays_ && !blocks_[b])
+    if (pattern_stays_ && !blocks_[b] && shares_[b].empty())
       mesh::for_parts(mesh_.blocks[b], [&](const mesh::ElementBlock& part, Index) {
         make_conduction_block(mesh_, part, kind_, closed_, edges_)->add_tangent_once(1.0, *matrix_);
       });

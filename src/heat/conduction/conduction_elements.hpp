@@ -32,6 +32,9 @@ class ConductionElements {
   /// Conduction of a body that comes back is computed again when it is asked for.
   void set_active(const linear::ActiveSet& active);
   const linear::ActiveSet& active() const { return active_; }
+  /// From here on the elements of a mesh block conduct only a share of what their material does.
+  /// @param share  [element of the block]
+  void set_shares(std::size_t block, std::vector<double> share);
   /// The matrix has a new graph; it must outlive this object or the next call.
   void bind(linear::BlockMatrix& matrix);
   /// One per body.
@@ -65,6 +68,7 @@ class ConductionElements {
   linear::BlockMatrix* matrix_ = nullptr;
   /// One per mesh block; null until it is asked for, and of a body that left.
   std::vector<std::unique_ptr<ConductionBlock>> blocks_;
+  std::vector<std::vector<double>> shares_;     ///< [mesh block][element]; empty: all
   std::vector<KirchhoffPotential> potentials_;  ///< one per body
   std::vector<Field> fields_;                   ///< one per body
   std::unique_ptr<NodalPotential> nodal_;

@@ -30,6 +30,8 @@ class KeptConduction {
   /// The matrix has a new pattern, or there are other bodies: conduction is assembled again when it is
   /// needed.
   void bind(linear::BlockMatrix& matrix);
+  /// Elements conduct otherwise than before: conduction is assembled again when it is needed.
+  void forget();
   /// Whether terms other than conduction and its limits add to the diagonal of the matrix alone; on this
   /// process. False at first.
   void set_others_diagonal(bool on) { others_diagonal_ = on; }
@@ -65,7 +67,6 @@ class KeptConduction {
     linear::BlockMatrix::Slot slot;
   };
   bool kept() const { return !kept_.empty() || !diagonal_.empty(); }
-  void forget();
   bool only_diagonal_beside() const;
   void find_node_bodies();
   void find_shared_pairs(int body);

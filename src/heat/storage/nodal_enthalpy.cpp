@@ -116,6 +116,25 @@ void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
   all_.reset();
 }
 
+void NodalEnthalpy::hold(std::span<const char> moves, std::span<const double> held) {
+  if (!rooms_) rooms_ = shares_;
+  shares_ = *rooms_;
+  shares_.scale([&](Index node, int body) {
+    return moves[static_cast<std::size_t>(body)] != 0 ? held[static_cast<std::size_t>(node)] : 1.0;
+  });
+}
+
+double NodalEnthalpy::heat_of(std::span<const char> of, Index node, double heat, double temperature) const {
+  const double share = plateau_share(node, heat, temperature);
+  double sum = 0;
+  for (const NodeShare s : shares_[node]) {
+    if (of[static_cast<std::size_t>(s.body)] == 0) continue;
+    const double low = curve(s).lower(temperature);
+    sum += s.weight * (low + share * (curve(s).upper(temperature) - low));
+  }
+  return sum;
+}
+
 void NodalEnthalpy::filter(const NodeShares& from, std::span<const char> kept) {
   NodeShares left;
   for (Index node = 0; node < from.n_nodes(); ++node) {
@@ -253,14 +272,14 @@ double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature
   double volume = 0, solid = 0;
   for (const NodeShare s : shares_[node]) {
     if (!can_melt(s.body)) continue;
-    volume += s.weight;
+    volume += this->volume(node, s.body);
     solid += solid_volume(node, s.body, heat, temperature);
   }
   return volume > 0 ? solid / volume : 1.0;
 }
 
 double NodalEnthalpy::volume(Index node, int body) const {
-  for (const NodeShare s : shares_[node])
+  for (const NodeShare s : (rooms_ ? *rooms_ : shares_)[node])
     if (s.body == body) return s.weight;
   return 0.0;
 }
@@ -314,7 +333,7 @@ double NodalEnthalpy::latent_capacity(Index node) const {
 }
 
 std::size_t NodalEnthalpy::bytes() const {
-  return shares_.bytes() + (all_ ? all_->bytes() : 0);
+  return shares_.bytes() + (all_ ? all_->bytes() : 0) + (rooms_ ? rooms_->bytes() : 0);
 }
 
 }  // namespace solidus::heat

@@ -29,6 +29,13 @@ class NodalEnthalpy {
   void set_active(const linear::ActiveSet& active);
   /// Removes the bodies of which kept[body] is zero for good.
   void keep_bodies(std::span<const char> kept);
+  /// From here on nodes hold other amounts of some bodies than they have room for: volume() is the room as
+  /// before, all heats are those of what is held. Not together with set_active().
+  /// @param moves  [body]: whether it counts
+  /// @param held   [owned node]: what is held of these bodies over what fills their room, above zero
+  void hold(std::span<const char> moves, std::span<const double> held);
+  /// The part of a node's heat that bodies of which of[body] is not zero have [J].
+  double heat_of(std::span<const char> of, Index node, double heat, double temperature) const;
 
   Index n_nodes() const { return shares_.n_nodes(); }  ///< owned ones
   /// Θ_i(H) [K]; H in joules. Not of a node that stores nothing.
@@ -114,6 +121,7 @@ class NodalEnthalpy {
   std::vector<double> breaks_;                   ///< temperatures where any curve bends or jumps, rising [K]
   NodeShares shares_;
   std::optional<NodeShares> all_;  ///< with those of inactive bodies; none as long as none has been inactive
+  std::optional<NodeShares> rooms_;  ///< the shares without hold(); none before its first call
 };
 
 }  // namespace solidus::heat

@@ -84,6 +84,15 @@ class NodeShares {
     const bool same_body = bodies_.size() == 1;
     return {bodies_.data() + (same_body ? 0 : first), same_body, weights_.data() + first, size};
   }
+  /// Multiplies the volumes: share by share, in the order of the nodes and of their shares.
+  template <class Factor>
+  void scale(const Factor& factor) {
+    for (Index node = 0; node < n_nodes(); ++node) {
+      const List list = (*this)[node];
+      for (std::size_t k = 0; k < list.size(); ++k)
+        weights_[static_cast<std::size_t>(list.weights_ - weights_.data()) + k] *= factor(node, list[k].body);
+    }
+  }
   std::size_t bytes() const;
 
  private:

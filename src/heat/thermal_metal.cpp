@@ -1,0 +1,118 @@
+/// Metal that moves takes its heat along; what it leaves behind conducts and stores as gas.
+///
+/// The heat of all nodes together is the same before and after, to rounding: what some lose others get.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <vector>
+
+#include "heat/iteration/heat_solver.hpp"
+#include "heat/iteration/heat_system.hpp"
+#include "heat/storage/nodal_enthalpy.hpp"
+#include "heat/thermal_phase.hpp"
+#include "mesh/shape.hpp"
+#include "system/processes.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+/// Air at 600 °C, halfway between a mould and most melts (F. P. Incropera et al., Fundamentals of Heat and
+/// Mass Transfer, 2007, table A.4).
+constexpr double k_gas_conductivity = 0.06;  ///< [W/(m K)]
+constexpr double k_gas_capacity = 450;       ///< ρ c_p [J/(m³ K)]
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+/// The metal of each node over what was poured, but no less than stores as much as gas does.
+std::vector<double> ThermalPhase::at_least_gas(const MovedMetal& metal) const {
+  // A capacity of the metal at 20 °C says what share of it the gas has.
+  double least = 1;
+  for (std::size_t body = 0; body < materials_.size(); ++body)
+    if (metal.moves[body] != 0)
+      least = std::min(least, k_gas_capacity / storage_->body_curve(static_cast<int>(body)).capacity(293.15));
+  std::vector<double> held(metal.held.begin(), metal.held.end());
+  for (double& share : held) share = std::max(share, least);
+  return held;
+}
+
+void ThermalPhase::move_metal(const MovedMetal& metal, ThermalState* state) {
+  assert(options_.integration == HeatIntegration::closed && options_.sensible == SensibleForm::enthalpy);
+  std::vector<double> held = at_least_gas(metal);
+  if (state != nullptr && !carry_heat(metal.moves, held, *state)) return;
+  storage_->hold(metal.moves, held);
+  // Temperatures follow from the heats where metal has come or gone.
+  if (state != nullptr) {
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+      if (held[at(i)] != held_at(i))
+        state->temperature[at(i)] = storage_->temperature(i, state->enthalpy[at(i)]);
+    ghosts_.update(state->temperature, 1);
+    ghosts_.update(state->enthalpy, 1);
+  }
+  held_ = std::move(held);
+  share_conduction(metal);
+}
+
+/// Takes the heat of metal that leaves its nodes out of them and gives all of it to those that get metal, by
+/// how much they get. Returns false, and changes nothing, where none has moved.
+bool ThermalPhase::carry_heat(std::span<const char> moves, std::span<const double> held,
+                              ThermalState& state) const {
+  // First the sums: heat that leaves, and room whose metal arrives.
+  std::vector<double> change(at(mesh_.n_owned_nodes), 0.0);
+  std::array<double, 2> sums{};
+  auto& [leaves, arrives] = sums;
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+    const double before = held_at(i), gain = held[at(i)] - before;
+    if (gain == 0) continue;
+    double room = 0;
+    for (std::size_t body = 0; body < moves.size(); ++body)
+      if (moves[body] != 0) room += storage_->volume(i, static_cast<int>(body));
+    if (room == 0) continue;
+    if (gain > 0) {
+      change[at(i)] = gain * room;
+      arrives += gain * room;
+    } else {
+      const double heat = storage_->heat_of(moves, i, state.enthalpy[at(i)], state.temperature[at(i)]);
+      change[at(i)] = heat * gain / before;
+      leaves -= change[at(i)];
+    }
+  }
+  processes::sum(sums);
+  if (!(arrives > 0)) return false;
+  // Then each node that gets metal has its part of that heat.
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+    const bool gets = held[at(i)] > held_at(i);
+    state.enthalpy[at(i)] += gets ? change[at(i)] / arrives * leaves : change[at(i)];
+  }
+  return true;
+}
+
+/// Gives each element of metal the mean conductivity of what fills it, by the mean of its nodes.
+void ThermalPhase::share_conduction(const MovedMetal& metal) {
+  ConductionElements& elements = system_->parts().elements;
+  bool any = false;
+  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = mesh_.blocks[b];
+    if (metal.moves[at(block.body)] == 0) continue;
+    const double gas = k_gas_conductivity / elements.potentials()[at(block.body)].reference();
+    const Index n = mesh::node_count(block.shape);
+    std::vector<double> share(at(block.size()));
+    for (Index e = 0; e < block.size(); ++e) {
+      double filled = 0;
+      for (Index a = 0; a < n; ++a) filled += metal.filled[at(block.element(e)[a])];
+      share[at(e)] = gas + (1 - gas) * filled / n;
+      any = any || filled < n;
+    }
+    elements.set_shares(b, std::move(share));
+  }
+  // As long as nothing is empty conduction is as it was assembled.
+  if (!parallel::any_process(any)) return;
+  system_->parts().conduction.forget();
+  solver_->forget();
+}
+
+}  // namespace solidus::heat
