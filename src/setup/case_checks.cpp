@@ -395,7 +395,6 @@ void check_filling(const cases::CaseSpec& spec) {
 
 /// Heat that moves with metal is there for what a run of heat alone with one set of bodies has.
 void check_feeding(const cases::CaseSpec& spec) {
-  if (!spec.feeding.moves_heat) return;
   const auto refuse = [&](const char* why, const char* instead) {
     throw InputError(spec.feeding.where, fmt::format("feeding.moves_heat: {}", why), instead);
   };
@@ -434,7 +433,7 @@ void check_case(const cases::CaseSpec& spec) {
   check_profiles(spec);
   check_output(spec.output);
   check_filling(spec);
-  check_feeding(spec);
+  if (spec.feeding.moves_heat) check_feeding(spec);
   probes(spec), profiles(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",
