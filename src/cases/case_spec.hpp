@@ -21,7 +21,7 @@
 #include "heat/thermal_phase.hpp"
 #include "input/keys.hpp"
 #include "linear/linear_solver.hpp"
-#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/mechanics_options.hpp"
 #include "numbers/types.hpp"
 #include "system/errors.hpp"
 

@@ -28,219 +28,164 @@ void open_up(ContactPointState& point) {
 
 }  // namespace
 
+std::optional<double> tool_temperature(const ContactParameters& spec, double time) {
+  if (!spec.rigid_master || !spec.rigid_master->temperature) return {};
+  return spec.rigid_master->temperature->value(time);
+}
+
+PairParts::PairParts(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& chosen,
+                     const PairSurfaces& surfaces, std::span<const double> body_modulus)
+    : spec(chosen),
+      geometry(mesh, kind, spec, surfaces),
+      forces(geometry, spec, surfaces, body_modulus, step),
+      history(geometry, kind, spec, surfaces, forces.law()),
+      heat(spec.heat ? std::make_unique<ContactHeat>(geometry, kind, spec, surfaces, forces.law(), partners)
+                     : nullptr,
+           geometry, forces, step, end),
+      gaps(heat.of_points(), geometry, forces, step, end),
+      augmentations(forces, step, end, geometry) {}
+
 ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactParameters spec,
-                         std::span<const double> body_modulus)
-    : spec_(with_roles(mesh, std::move(spec), body_modulus)) {
-  const PairSurfaces surfaces(mesh, spec_);
-  geometry_ = std::make_unique<ContactGeometry>(mesh, kind, spec_, surfaces);
-  forces_ = std::make_unique<ContactForces>(*geometry_, spec_, surfaces, body_modulus, step_);
-  history_ = std::make_unique<ContactHistory>(*geometry_, kind, spec_, surfaces, forces_->law());
-  if (spec_.heat)
-    heat_ = std::make_unique<ContactHeat>(*geometry_, kind, spec_, surfaces, forces_->law(), partners_);
-  restore({}, geometry_->no_displacement(), 0);
+                         std::span<const double> body_modulus) {
+  const ContactParameters chosen = with_roles(mesh, std::move(spec), body_modulus);
+  const PairSurfaces surfaces(mesh, chosen);
+  parts_ = std::make_unique<PairParts>(mesh, kind, chosen, surfaces, body_modulus);
+  restore({}, parts_->geometry.no_displacement(), 0);
 }
 
 void ContactPair::activate(bool on) {
-  active_ = on;
-  forces_->activate(on);
-  if (heat_) heat_->term().activate(on);
+  parts_->forces.activate(on);
+  if (ContactHeat* const heat = parts_->heat.of_points()) heat->term().activate(on);
 }
 
 ContactView ContactPair::view() const {
-  return {spec_, *geometry_, forces_->law(), *history_, step_, end_, heat_.get(), active_};
-}
-
-std::optional<double> ContactPair::tool_temperature_at(double time) const {
-  if (!spec_.rigid_master || !spec_.rigid_master->temperature) return {};
-  return spec_.rigid_master->temperature->value(time);
+  const PairParts& p = *parts_;
+  return {p.spec, p.geometry, p.forces.law(),     p.history,
+          p.step, p.end,      p.heat.of_points(), p.forces.active()};
 }
 
 void ContactPair::set_temperature(std::span<const double> temperature) {
-  if (step_.coupled.law != nullptr) step_.coupled.temperature.assign(temperature.begin(), temperature.end());
+  ContactStep& step = parts_->step;
+  if (step.coupled.law != nullptr) step.coupled.temperature.assign(temperature.begin(), temperature.end());
 }
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
+  PairParts& parts = *parts_;
+  ContactStep& step = parts.step;
+  const ContactHeat* const heat = parts.heat.of_points();
   // What the pass is made of: history at the start of the step, kind of split, time, displacements and skins
   // of that moment.
-  history_->set_out_from(old, step_);
-  forces_->begin(pass.isentropic, pass.share, pass.further);
-  step_.dt = pass.dt;
-  step_.time = pass.time;
-  step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
-  step_.begun = pass.time - pass.dt;
-  history_->find_skins(active_ ? pass.solidity : Solidity{}, step_);
-  const bool rubs = forces_->law().friction.has_value();
-  step_.coupled = {};
+  parts.history.set_out_from(old, step);
+  parts.forces.begin(pass.isentropic, pass.share, pass.further);
+  step.dt = pass.dt;
+  step.time = pass.time;
+  step.displacement.assign(pass.displacement.begin(), pass.displacement.end());
+  step.begun = pass.time - pass.dt;
+  parts.history.find_skins(parts.forces.active() ? pass.solidity : Solidity{}, step);
+  const bool rubs = parts.forces.law().friction.has_value();
+  step.coupled = {};
   // When both phases are solved at once, temperatures enter the return mapping of friction.
-  if (pass.simultaneous && heat_ && rubs)
-    step_.coupled = {.law = &heat_->law(),
-                     .time_step = pass.dt,
-                     .temperature = {pass.temperature.begin(), pass.temperature.end()},
-                     .tool_temperature = tool_temperature_at(pass.time)};
-  if ((rubs || has_temperature()) && !pass.temperature.empty())
-    history_->find_temperatures(pass.temperature,
-                                heat_ ? HeatTransferLaw::slave_share(heat_->law().slave_resistance()) : 0.5,
-                                has_temperature(), tool_temperature_at(step_.begun), step_);
+  if (pass.simultaneous && heat != nullptr && rubs)
+    step.coupled = {.law = &heat->law(),
+                    .time_step = pass.dt,
+                    .temperature = {pass.temperature.begin(), pass.temperature.end()},
+                    .tool_temperature = tool_temperature(parts.spec, pass.time)};
+  if ((rubs || parts.heat.has_temperature()) && !pass.temperature.empty())
+    parts.history.find_temperatures(
+        pass.temperature,
+        heat != nullptr ? HeatTransferLaw::slave_share(heat->law().slave_resistance()) : 0.5,
+        parts.heat.has_temperature(), tool_temperature(parts.spec, step.begun), step);
   // Of an earlier pass of the same step temperatures, internal variables and multipliers go on.
-  step_.iterate.clear();
-  if (pass.iterate == nullptr || pass.iterate->points.size() != step_.from.size()) return;
-  for (std::size_t p = 0; p < step_.from.size(); ++p) {
-    const ContactPointState &before = pass.iterate->points[p], &from = step_.from[p];
-    step_.iterate.push_back(
+  step.iterate.clear();
+  if (pass.iterate == nullptr || pass.iterate->points.size() != step.from.size()) return;
+  for (std::size_t p = 0; p < step.from.size(); ++p) {
+    const ContactPointState &before = pass.iterate->points[p], &from = step.from[p];
+    step.iterate.push_back(
         {before.temperature > 0 ? before.temperature : from.temperature, rubbed_variable(from, before)});
-    step_.from[p].multiplier = std::max(before.multiplier, least_multiplier(from));
+    step.from[p].multiplier = std::max(before.multiplier, least_multiplier(from));
   }
 }
 
 void ContactPair::hold(const ContactState& old, double time, double dt, std::span<const double> temperature) {
-  const std::vector<double> displacement = geometry_->no_displacement();
+  const std::vector<double> displacement = parts_->geometry.no_displacement();
   begin(old, {.time = time, .dt = dt, .displacement = displacement, .temperature = temperature});
   update(displacement);
 }
 
 const ContactState& ContactPair::update(std::span<const double> displacement) {
+  PairParts& parts = *parts_;
+  const ContactStep& step = parts.step;
+  ContactEnd& end = parts.end;
+  ContactHeat* const heat = parts.heat.of_points();
   // The end of the step is copied first: wear and heat below refer to it.
-  end_.displacement.assign(displacement.begin(), displacement.end());
-  end_.time = step_.time;
-  const ContactKinematics& kinematics = geometry_->at(end_.time, end_.displacement);
-  std::vector<ContactPointState>& points = end_.state.points;
-  points.resize(step_.from.size());
-  end_.state.master = step_.worn_from;
+  end.displacement.assign(displacement.begin(), displacement.end());
+  end.time = step.time;
+  const ContactKinematics& kinematics = parts.geometry.at(end.time, end.displacement);
+  std::vector<ContactPointState>& points = end.state.points;
+  points.resize(step.from.size());
+  end.state.master = step.worn_from;
   // Partners that cannot change are stored once.
-  const bool fixed = !kinematics.partners_change() && partners_.n_points() > 0;
-  if (!fixed) partners_.clear();
-  if (heat_) {
+  const bool fixed = !kinematics.partners_change() && parts.partners.n_points() > 0;
+  if (!fixed) parts.partners.clear();
+  if (heat != nullptr) {
     // The heat term is filled point by point along with the forces: what it needs of the motion is
     // then at hand.
-    heat_->term().set_tool_temperature(tool_temperature());
-    heat_->clear(points.size());
+    heat->term().set_tool_temperature(tool_temperature(parts.spec, end.time));
+    heat->clear(points.size());
   }
   // At each point the motion gives forces, these the next history, wear and heat.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const ContactPointState& from = step_.from[at(p)];
+    const ContactPointState& from = step.from[at(p)];
     ContactPointState& now = points[at(p)];
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     // Forces depend on the state at the start of the step alone, so that a call at another
     // displacement begins from the same state.
-    const PointForces forces = forces_->at(motion, p);
-    now = forces_->law().next(motion, from, forces);
+    const PointForces forces = parts.forces.at(motion, p);
+    now = parts.forces.law().next(motion, from, forces);
     // A pair that is not active keeps no anchors: it starts without slip when it becomes active.
-    if (!active_) now.anchored = false;
-    history_->wear_master(motion, now, forces, end_.state.master);
-    if (!fixed) partners_.add(motion, kinematics.particle(p).counted);
-    if (heat_) heat_->add(step_, from, now, forces);
+    if (!parts.forces.active()) now.anchored = false;
+    parts.history.wear_master(motion, now, forces, end.state.master);
+    if (!fixed) parts.partners.add(motion, kinematics.particle(p).counted);
+    if (heat != nullptr) heat->add(step, from, now, forces);
   }
-  if (heat_) heat_->place();
-  return end_.state;
+  if (heat != nullptr) heat->place();
+  return end.state;
 }
 
 void ContactPair::restore(const ContactState& state, std::span<const double> displacement, double time) {
-  history_->set_out_from(state, step_);
-  step_.time = step_.begun = time;
-  step_.dt = 0;
-  step_.coupled = {};
+  PairParts& parts = *parts_;
+  ContactStep& step = parts.step;
+  ContactHeat* const heat = parts.heat.of_points();
+  parts.history.set_out_from(state, step);
+  step.time = step.begun = time;
+  step.dt = 0;
+  step.coupled = {};
   // All that belongs to a step under way is dropped: its coupling, its iterates and its heat.
-  step_.iterate.clear();
-  if (heat_) heat_->reset();
-  step_.displacement.assign(displacement.begin(), displacement.end());
+  step.iterate.clear();
+  if (heat != nullptr) heat->reset();
+  step.displacement.assign(displacement.begin(), displacement.end());
   update(displacement);
   // Gaps and the points of the heat term follow from the motion alone: what the last step did is in the
   // state.
-  std::vector<ContactPointState>& points = end_.state.points;
+  std::vector<ContactPointState>& points = parts.end.state.points;
   // The points are as the checkpoint has them, so that a restart has the same bits; only the
   // penetration is that of the motion.
   for (std::size_t p = 0; p < points.size(); ++p) {
     const double penetration = points[p].penetration;
-    points[p] = step_.from[p];
+    points[p] = step.from[p];
     points[p].penetration = penetration;
   }
-  end_.state.master = step_.worn_from;
-  if (heat_) heat_->restore(step_, points);
-  if (!active_) std::ranges::for_each(points, open_up);
-}
-
-double ContactPair::left_penetration() const {
-  if (!forces_->multiplies() || !forces_->multipliers().ended_early()) return 0;
-  return forces_->multipliers().largest_penetration(end_.state) / geometry_->face_size();
-}
-
-void ContactPair::begin_heat(double dt, bool adiabatic) {
-  if (heat_) heat_->begin_phase(dt, adiabatic);
-}
-
-std::vector<double> ContactPair::conducted_temperatures(std::span<const double> temperature) const {
-  return has_temperature() ? heat_->term().interface_temperatures(temperature) : std::vector<double>{};
-}
-
-void ContactPair::hold_deformation() {
-  if (!has_temperature()) return;
-  step_.from = end_.state.points;
-  step_.dt = 0;
-  heat_->hold(step_, end_.state.points);
-}
-
-std::vector<HeatGap> ContactPair::heat_gaps() const {
-  return heat_ ? heat_->term().gaps() : std::vector<HeatGap>{};
-}
-
-std::vector<HeatGap> ContactPair::heat_gaps_ahead(std::span<const double> displacement, double time) const {
-  std::vector<HeatGap> gaps = heat_gaps();
-  if (gaps.empty() || !active_) return gaps;
-  const ContactKinematics& kinematics = geometry_->at(time, displacement);
-  // Only open points may change: the gap at the displacements that are to come.
-  for (Index p = 0; p < kinematics.n_points(); ++p) {
-    HeatGap& gap = gaps[at(p)];
-    if (!gap.partnered || !(gap.penetration < 0)) continue;
-    // Points with a partner are taken by the motion at that place; they can come back to touching
-    // but not be pressed.
-    const PointMotion motion =
-        kinematics.motion(p, end_.state.points[at(p)], ContactKinematics::Asked::motion);
-    gap.partnered = motion.partnered;
-    if (motion.partnered) gap.penetration = std::min(motion.penetration + step_.from[at(p)].offset, 0.0);
-  }
-  // The geometry is put back to the end of the step, which others refer to.
-  geometry_->at(end_.time, end_.displacement);
-  return gaps;
-}
-
-void ContactPair::conduct_through(std::span<const HeatGap> gaps) {
-  if (heat_) heat_->term().set_gaps(gaps);
-}
-
-GapHeat ContactPair::gap_heat(std::span<const HeatGap> used, std::span<const HeatGap> right,
-                              std::span<const double> temperature) const {
-  if (!heat_) return {};
-  const GapHeat heat = heat_->term().gap_heat(used, right, temperature);
-  std::array<double, 2> sums = {heat.passed, heat.misplaced};
-  processes::sum(sums);
-  return {sums[0], sums[1]};
-}
-
-void ContactPair::predict_heat() {
-  if (heat_) heat_->predict();
-}
-
-InterfaceSums ContactPair::commit_heat(std::span<const double> temperature) {
-  return heat_ ? heat_->commit(temperature, step_, end_.state.points) : InterfaceSums{};
-}
-
-void ContactPair::add_coupling(std::span<const double> temperature, linear::CoupledMatrix& matrix) const {
-  if (!heat_ || !active_) return;
-  const ContactKinematics& kinematics = geometry_->at(end_.time, end_.displacement);
-  heat_->add_displacement_tangent(kinematics, step_, end_.state.points, temperature, matrix);
-  forces_->term().add_temperature_tangent(matrix);
-}
-
-std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature) const {
-  std::vector<double> heat(static_cast<std::size_t>(geometry_->mesh().n_owned_nodes), 0.0);
-  if (heat_) heat_->term().add_residual(temperature, heat);
-  return heat;
+  parts.end.state.master = step.worn_from;
+  if (heat != nullptr) heat->restore(step, points);
+  if (!parts.forces.active()) std::ranges::for_each(points, open_up);
 }
 
 std::size_t ContactPair::bytes() const {
-  return partners_.bytes() + step_.start_traction.capacity() * sizeof(Point) +
-         (end_.state.points.capacity() + step_.from.capacity()) * sizeof(ContactPointState) +
-         forces_->term().bytes() + (heat_ ? heat_->term().bytes() : 0);
+  const PairParts& p = *parts_;
+  const ContactHeat* const heat = p.heat.of_points();
+  return p.partners.bytes() + p.step.start_traction.capacity() * sizeof(Point) +
+         (p.end.state.points.capacity() + p.step.from.capacity()) * sizeof(ContactPointState) +
+         p.forces.term().bytes() + (heat != nullptr ? heat->term().bytes() : 0);
 }
 
 }  // namespace solidus::contact

@@ -75,7 +75,7 @@ BlockIterative::BlockIterative(Phases phases, IterationOptions options)
   if (phases_.heat == nullptr || phases_.mechanics == nullptr)
     throw std::invalid_argument("the block-iterative scheme needs both phases");
   using mechanics::Mapping;
-  const Mapping mapping = phases_.mechanics->mapping();
+  const Mapping mapping = phases_.mechanics->bodies().options.mapping;
   if (mapping == Mapping::simultaneous)
     throw std::invalid_argument("the mechanical phase was built for another scheme");
   if (mapping == Mapping::isentropic && phases_.structural == nullptr)
@@ -93,9 +93,9 @@ void BlockIterative::synchronise(const State& state) {
 }
 
 void BlockIterative::forget() {
-  phases_.mechanics->forget();
+  phases_.mechanics->system().solver().forget();
   phases_.heat->forget();
-  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
@@ -132,7 +132,7 @@ void BlockIterative::solve(const State& old, State& trial, const Attempt& attemp
   iterate_until_agreement(old, it);
   effort.coupling_iterations = it.number;
   if (phases_.structural != nullptr) {
-    contact.add(phases_.mechanics->work_share());
+    contact.add(phases_.mechanics->bodies().work_share());
     contact.book(effort.energy);
   }
   book_excess_work(phases_, it.deformation, effort.energy);

@@ -66,14 +66,14 @@ void warn_of_early_end(const contact::ContactPair& pair) {
       "contact '{}': in some steps, shorter ones too, the augmentations of the Lagrangian do not converge; "
       "they end at their last equilibrium, with penetrations above penetration_tolerance "
       "(turns_that_did_not_settle in summary.json); normal = \"penalty\" needs none",
-      pair.spec().name);
+      pair.parts().spec.name);
 }
 
 [[noreturn]] void reject_augmentations(const contact::ContactPair& pair, int augmentations, double excess) {
   throw StepRejected(fmt::format("contact '{}': {} augmentations of the Lagrangian leave penetrations "
                                  "{:.3g} times as large as allowed",
-                                 pair.spec().name, augmentations, excess),
-                     pair.forces().worst_penetration(pair.state()), Failure::multipliers);
+                                 pair.parts().spec.name, augmentations, excess),
+                     contact::worst_penetration(pair.parts().geometry, pair.state()), Failure::multipliers);
 }
 
 bool numbers_everywhere(std::span<const double> values) {
@@ -83,10 +83,11 @@ bool numbers_everywhere(std::span<const double> values) {
 /// Ends the augmentations early where all pairs allow it; then true.
 bool end_early(const Phases& phases) {
   for (const contact::ContactPair* pair : phases.contacts)
-    if (pair->forces().multiplies() && !pair->forces().multipliers().may_end_at(pair->state())) return false;
+    if (pair->parts().augmentations.act() && !pair->parts().forces.multipliers().may_end_at(pair->state()))
+      return false;
   for (contact::ContactPair* pair : phases.contacts)
-    if (pair->excess() > 1) {
-      pair->end_turns();
+    if (pair->parts().augmentations.excess() > 1) {
+      pair->parts().augmentations.end();
       warn_of_early_end(*pair);
     }
   return true;
@@ -96,13 +97,13 @@ bool end_early(const Phases& phases) {
 /// with the default penalty alone.
 void end_augmentations(const contact::ContactPair& pair, int augmentations, double excess) {
   constexpr double k_of_default_penalty = 0.1;
-  const double share = pair.pressure_error();
+  const double share = pair.parts().augmentations.pressure_error();
   if (share > k_of_default_penalty) reject_augmentations(pair, augmentations, excess);
   logging::warn(
       "contact '{}': in some steps {} augmentations of the Lagrangian do not converge; its multipliers are "
       "taken as they are there, off by up to {} % of the mean contact pressure; normal = \"penalty\" or a "
       "larger penetration_tolerance costs fewer of them",
-      pair.spec().name, k_most_augmentations, rounded_up(share));
+      pair.parts().spec.name, k_most_augmentations, rounded_up(share));
 }
 
 }  // namespace
@@ -120,11 +121,12 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
       .displacement = old.displacement,
       .temperature = pass.temperature,
       .solidity = solidity_of(phases, coherency),
-      .isentropic = phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::isentropic,
-      .simultaneous =
-          phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,
+      .isentropic = phases.heat != nullptr &&
+                    phases.mechanics->bodies().options.mapping == mechanics::Mapping::isentropic,
+      .simultaneous = phases.heat != nullptr &&
+                      phases.mechanics->bodies().options.mapping == mechanics::Mapping::simultaneous,
       .further = further,
-      .share = phases.mechanics->force_share()};
+      .share = phases.mechanics->bodies().force_share()};
   // Each pair gets its own state at t_n and, within an iteration, the one of the pass before.
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
     of_contact.iterate = iterate.empty() ? nullptr : &iterate[i];
@@ -134,14 +136,14 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
 
 void rest_contacts(const Phases& phases, const State& old, double time, double dt) {
   for (std::size_t i = 0; i < phases.contacts.size(); ++i)
-    if (phases.contacts[i]->has_temperature())
+    if (phases.contacts[i]->parts().heat.has_temperature())
       phases.contacts[i]->hold(state_of(old.contacts, i), time, dt, old.heat.temperature);
 }
 
 bool interfaces_begin(const Phases& phases, const State& state) {
   bool begin = false;
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
-    if (!phases.contacts[i]->has_temperature()) continue;
+    if (!phases.contacts[i]->parts().heat.has_temperature()) continue;
     const auto known = [](const contact::ContactPointState& point) { return point.temperature > 0; };
     begin |= state.contacts.empty() ||
              (!state.contacts[i].points.empty() && std::ranges::none_of(state.contacts[i].points, known));
@@ -155,7 +157,7 @@ void find_interface_temperatures(const Phases& phases, const State& state, doubl
   for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
     contact::ContactPair& pair = *phases.contacts[i];
     // Only interfaces that store heat have a temperature that can be unknown.
-    if (!pair.has_temperature()) continue;
+    if (!pair.parts().heat.has_temperature()) continue;
     pair.begin(state_of(state.contacts, i), {.time = time,
                                              .dt = 0,
                                              .displacement = state.mechanics.displacement,
@@ -193,7 +195,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
   for (std::size_t i = 0; i < stage.size(); ++i) {
     const bool moved = !state_of(old, i).points.empty();
     const contact::ContactState initial =
-        moved ? contact::ContactState{} : phases.contacts[i]->history().initial();
+        moved ? contact::ContactState{} : phases.contacts[i]->parts().history.initial();
     const contact::ContactState& begun = moved ? old[i] : initial;
     for (std::size_t p = 0; p < stage[i].points.size(); ++p)
       advance_history(begun.points[p], stage[i].points[p], carried, start[i].points[p]);
@@ -212,16 +214,16 @@ bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
   double excess = 0;
   const contact::ContactPair* worst = nullptr;
   for (const contact::ContactPair* pair : phases.contacts) {
-    const contact::AugmentedLagrangian& multipliers = pair->forces().multipliers();
+    const contact::AugmentedLagrangian& multipliers = pair->parts().forces.multipliers();
     if (multipliers.ended_early()) {
       // A further pass of a step whose augmentations have ended: the same bound holds for it.
       if (!multipliers.holds_bound(pair->state()))
-        reject_augmentations(*pair, augmentation + earlier, pair->excess());
+        reject_augmentations(*pair, augmentation + earlier, pair->parts().augmentations.excess());
       continue;
     }
     // By default the pressure's tolerance ends the augmentations of a pair after a few.
-    if (pair->spec().pressure_tolerance && augmentation >= k_most_augmentations_by_default) continue;
-    if (const double of_pair = pair->excess(); of_pair > excess) {
+    if (pair->parts().spec.pressure_tolerance && augmentation >= k_most_augmentations_by_default) continue;
+    if (const double of_pair = pair->parts().augmentations.excess(); of_pair > excess) {
       excess = of_pair;
       worst = pair;
     }
@@ -230,7 +232,7 @@ bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
   logging::debug(
       "contact '{}': augmentation {} of the Lagrangian leaves penetrations {:.3g} times as large as "
       "allowed",
-      worst->spec().name, augmentation + earlier, excess);
+      worst->parts().spec.name, augmentation + earlier, excess);
   // After many augmentations points may alternate for good: what is nearly small enough is accepted, else
   // pairs end early, and at last all augmentations end.
   const bool enough = augmentation + earlier >= k_augmentations_by_means;
@@ -239,7 +241,7 @@ bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
         "contact '{}': in some steps points open and close from one augmentation of the Lagrangian to the "
         "next, and penetrations stay above penetration_tolerance, by less than {:g} times; normal = "
         "\"penalty\" or a larger tolerance costs fewer of them",
-        worst->spec().name, k_tolerable);
+        worst->parts().spec.name, k_tolerable);
     return true;
   }
   if (enough && end_early(phases)) return true;
@@ -248,7 +250,7 @@ bool penetrations_small(const Phases& phases, int augmentation, int earlier) {
     return true;
   }
   const contact::AugmentedBy by = enough ? contact::AugmentedBy::points : contact::AugmentedBy::means;
-  for (contact::ContactPair* pair : phases.contacts) pair->augment(by);
+  for (contact::ContactPair* pair : phases.contacts) pair->parts().augmentations.augment(by);
   return false;
 }
 
@@ -256,15 +258,15 @@ bool restore_multipliers(const Phases& phases) {
   // Only if all pairs can go back to their multipliers before the last augmentation.
   bool any = false;
   for (const contact::ContactPair* pair : phases.contacts) {
-    if (!pair->forces().multiplies()) continue;
-    if (!pair->forces().multipliers().may_take_back()) return false;
+    if (!pair->parts().augmentations.act()) continue;
+    if (!pair->parts().forces.multipliers().may_take_back()) return false;
     // A pair without multipliers has nothing to take back.
     any = true;
   }
   if (!any) return false;
   for (contact::ContactPair* pair : phases.contacts) {
-    if (!pair->forces().multiplies()) continue;
-    pair->take_back_turn();
+    if (!pair->parts().augmentations.act()) continue;
+    pair->parts().augmentations.take_back();
     warn_of_early_end(*pair);
   }
   return true;
@@ -274,7 +276,8 @@ void add_contacts(const Phases& phases, StepRejected& rejected) {
   // What contact says of its failure, and its state at the displacements that failed, for the diagnosis.
   std::string failure;
   for (const contact::ContactPair* pair : phases.contacts)
-    if (failure.empty()) failure = pair->forces().failure_text();
+    if (failure.empty())
+      failure = contact::failure_text(pair->parts().forces.term(), pair->parts().spec.name);
   if (!failure.empty()) rejected.append(" (" + failure + ")");
   // Only a failed equilibrium has an iterate at which the points can be looked at.
   auto* const equilibrium = dynamic_cast<mechanics::EquilibriumRejected*>(&rejected);
@@ -283,7 +286,7 @@ void add_contacts(const Phases& phases, StepRejected& rejected) {
   // update() moves the pairs to the displacements that failed; what changed in the last iteration
   // is kept.
   for (contact::ContactPair* pair : phases.contacts) {
-    const std::int64_t changed = pair->forces().changes();
+    const std::int64_t changed = contact::changes(pair->parts().forces.term());
     pair->update(equilibrium->iterate.displacement);
     equilibrium->iterate.contacts.push_back({closed_points(pair->state()), changed});
   }

@@ -10,7 +10,8 @@ namespace {
 /// @param into_bodies  heat of the pair's thermal term into the bodies [J]
 void book_tool(const contact::ContactPair& pair, double into_bodies, const contact::InterfaceSums& friction,
                EnergyAudit& energy) {
-  const std::optional<double> temperature = pair.tool_temperature();
+  const std::optional<double> temperature =
+      contact::tool_temperature(pair.parts().spec, pair.parts().end.time);
   if (!temperature) return;
   const double heat = into_bodies - (friction.dissipated - friction.stored);
   energy.heat_in += heat;
@@ -66,9 +67,9 @@ void commit_contact_heat(const Phases& phases, std::span<const double> temperatu
                          std::span<const double> into_bodies, EnergyAudit& energy) {
   std::size_t term = 0;  // the thermal terms of the pairs come first
   for (contact::ContactPair* pair : phases.contacts) {
-    const contact::InterfaceSums sums = pair->commit_heat(temperature);
+    const contact::InterfaceSums sums = pair->parts().heat.commit(temperature);
     energy.interface.add(sums);
-    if (pair->heat() != nullptr) book_tool(*pair, into_bodies[term++], sums, energy);
+    if (pair->parts().heat.term() != nullptr) book_tool(*pair, into_bodies[term++], sums, energy);
   }
 }
 

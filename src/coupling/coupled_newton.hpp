@@ -59,7 +59,7 @@ class CoupledNewton {
 
   /// Solves one stage; where the iteration finds no solution, it sets out once more with a tangent that
   /// leaves out how heat follows the displacements. Thermal start and unknowns are those of `thermal`, which
-  /// has begun; `x` holds the unknowns of the mechanical phase at the start (MechanicalPhase::start) and, at
+  /// has begun; `x` holds the unknowns of the mechanical phase at the start (MechanicalBodies::start) and, at
   /// the end, at the solution.
   /// @param old   t_n of the mechanical phase, or u*, z* of a second stage
   /// @param pass  time, step and Θ_n
@@ -135,6 +135,20 @@ class CoupledNewton {
   bool equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                    std::vector<double>& x);
 
+  struct Work {
+    std::vector<double> owned_step;       ///< of displacement and pressure, on owned nodes
+    std::vector<double> step_u, start_u;  ///< the same on local nodes
+    std::vector<double> step_t, further;  ///< [local node], [owned node]
+    std::vector<double> scratch;
+  };
+  struct Progress {
+    double norm = 0, reference = 0;  ///< of r_u
+    double next_step = 0;            ///< its estimated size, MechanicalEquations::relative_step
+    double shifted_heat = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces in balance [W]
+    bool in_equilibrium = false;  ///< every iterate is brought there
+    int lost = 0;                 ///< iterates for which no equilibrium was found
+  };
+
   Phases phases_;
   mechanics::MechanicalPhase& mechanics_;
   std::unique_ptr<heat::ThermalIteration> thermal_;
@@ -145,17 +159,10 @@ class CoupledNewton {
   // At the last evaluation: scratch, and what the heat of deformation there follows from.
   std::vector<mechanics::BlockHistory> history_;
   mechanics::StepDeformation deformation_;
-  std::vector<double> force_;             ///< r_u and −unit × r_p, on owned nodes
-  std::vector<double> owned_step_;        ///< of displacement and pressure, on owned nodes
-  std::vector<double> step_u_, start_u_;  ///< the same on local nodes
-  std::vector<double> step_t_, further_;  ///< [local node], [owned node]
-  std::vector<double> work_;              ///< scratch
-  double norm_ = 0, reference_ = 0;       ///< of r_u
-  double next_step_ = 0;                  ///< its estimated size, MechanicalPhase::relative_step
-  double shifted_heat_ = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces in balance [W]
+  std::vector<double> force_;  ///< r_u and −unit × r_p, on owned nodes
+  Work work_;
   Tangent tangent_ = Tangent::whole;
-  bool in_equilibrium_ = false;  ///< every iterate is brought there
-  int lost_ = 0;                 ///< iterates for which no equilibrium was found
+  Progress progress_;
 };
 
 }  // namespace solidus::coupling

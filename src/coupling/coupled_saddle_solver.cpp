@@ -102,7 +102,8 @@ void CoupledSaddleSolver::set_up() {
   // hierarchy.
   if (outer_.direct) {
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_, weights_.force, weights_.heat);
-    outer_.factorised->set(pressure_.orthogonal() ? outer_.matrix->matrix() : assembled, assembled);
+    outer_.factorised->set(pressure_.projection() != nullptr ? outer_.matrix->matrix() : assembled,
+                           assembled);
     return;
   }
   saddle_->set_up_schur();
@@ -141,7 +142,7 @@ void CoupledSaddleSolver::multiply(std::span<const double> x, std::span<double> 
   };
   // Each block of the matrix adds its product, and the rows are weighted as the right-hand side is.
   matrix_.saddle()->multiply(work_.local_u, work_.local_p, of_u(work_.product), of_p(work_.product));
-  pressure_.add_projection_to(of_p(work_.whole), 1.0, of_p(work_.product));
+  mechanics::add_projection(pressure_, of_p(work_.whole), 1.0, of_p(work_.product));
   matrix_.temperature().multiply(work_.local_t, of_t(work_.product));
   matrix_.multiply_force(work_.local_t, of_u(work_.part));
   matrix_.multiply_volume(work_.local_t, of_p(work_.part));

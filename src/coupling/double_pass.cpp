@@ -11,6 +11,7 @@
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "mechanics/mechanical_restart.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::coupling {
@@ -31,7 +32,7 @@ DoublePass::DoublePass(Phases phases, ThermalFlow flow) : phases_(std::move(phas
     // close the balance.
     throw std::invalid_argument("the double pass needs both phases");
   using mechanics::Mapping;
-  const Mapping mapping = phases_.mechanics->mapping();
+  const Mapping mapping = phases_.mechanics->bodies().options.mapping;
   if (mapping == Mapping::simultaneous)
     throw std::invalid_argument("the mechanical phase was built for another scheme");
   if (mapping == Mapping::isentropic && phases_.structural == nullptr)
@@ -44,7 +45,8 @@ DoublePass::DoublePass(Phases phases, ThermalFlow flow) : phases_(std::move(phas
 }
 
 bool DoublePass::repeats() const {
-  return phases_.mechanics->mapping() == mechanics::Mapping::isothermal && phases_.structural != nullptr;
+  return phases_.mechanics->bodies().options.mapping == mechanics::Mapping::isothermal &&
+         phases_.structural != nullptr;
 }
 
 void DoublePass::synchronise(const State& state) {
@@ -52,9 +54,9 @@ void DoublePass::synchronise(const State& state) {
 }
 
 void DoublePass::forget() {
-  phases_.mechanics->forget();
+  phases_.mechanics->system().solver().forget();
   phases_.heat->forget();
-  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 
 StepEffort DoublePass::advance(const State& old, State& trial, double time, double dt) {
@@ -115,15 +117,15 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
                                   mechanics::ForcesAtWork& in_middle) {
   StepEffort effort;
   const double middle = time - 0.5 * dt;
-  const bool moves = phases_.mechanics->dynamic();
+  const bool moves = phases_.mechanics->bodies().inertia != nullptr;
   ContactWork contact(phases_);
   // The share of the plateau is held while the mechanical phase works, as the temperature is.
   const std::vector<double> share = plateau_share(phases_, old.heat);
   // Step 0: a predictor of heat over the first half with the deformation held.
   if (phases_.structural != nullptr) phases_.structural->release();
   mechanics::StepDeformation held =
-      phases_.mechanics->held_deformation(old.mechanics, old.heat.temperature, share);
-  for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
+      mechanics::held_deformation(*phases_.mechanics, old.mechanics, old.heat.temperature, share);
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().heat.hold_deformation();
   // It gives the temperature at which the mechanical phase evaluates properties.
   State predicted;
   thermal_pass(phases_, old, predicted, held, {.time = middle, .dt = 0.5 * dt}, effort);
@@ -144,9 +146,9 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
       moved, effort);
   in_middle = std::move(moved.report.at_work);
   // The work of contact in the half step is booked before gaps move on.
-  contact.add(phases_.mechanics->work_share());
+  contact.add(phases_.mechanics->bodies().work_share());
   contact.book(effort.energy);
-  for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().heat.predict();
   // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
   // back in step 4.
   thermal_half(old, half, moved.report.deformation,
@@ -160,7 +162,7 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
 StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt,
                                    const mechanics::ForcesAtWork& in_middle) {
   StepEffort effort;
-  const bool moves = phases_.mechanics->dynamic();
+  const bool moves = phases_.mechanics->bodies().inertia != nullptr;
   const heat::ThermalPass adiabatic{.time = time, .dt = dt, .adiabatic = true};
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, half.heat);
@@ -181,7 +183,7 @@ StepEffort DoublePass::second_half(const State& half, State& trial, double time,
       },
       moved, effort);
   // In quasi-statics the work of the pressure in the middle, as that of the stress.
-  contact.add(moves ? phases_.mechanics->work_share() : 0);
+  contact.add(moves ? phases_.mechanics->bodies().work_share() : 0);
   contact.book(effort.energy);
   thermal_half(half, trial, moved.report.deformation, adiabatic, pass, effort);
   book_interface(effort.energy, phases_.structural != nullptr);

@@ -42,8 +42,8 @@ heat::TemperatureRange including(const heat::TemperatureRange& a, const heat::Te
 heat::TemperatureRange range_around(const Phases& phases, double time) {
   heat::TemperatureRange around = phases.heat->ambient_range(time, false);
   for (const contact::ContactPair* pair : phases.contacts) {
-    if (pair->spec().friction) around.highest = HUGE_VAL;
-    const std::optional<double> tool = pair->tool_temperature();
+    if (pair->parts().spec.friction) around.highest = HUGE_VAL;
+    const std::optional<double> tool = contact::tool_temperature(pair->parts().spec, pair->parts().end.time);
     if (!tool) continue;
     around.lowest = std::min(around.lowest, *tool);
     around.highest = std::max(around.highest, *tool);

@@ -41,7 +41,7 @@ class GuardedScheme final : public CouplingScheme {
   void forget() override { scheme_->forget(); }
   void conditions_changed() override { scheme_->conditions_changed(); }
   void allow_early_end(bool on) override {
-    for (contact::ContactPair* pair : phases_.contacts) pair->allow_early_end(on);
+    for (contact::ContactPair* pair : phases_.contacts) pair->parts().augmentations.allow_early_end(on);
   }
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
   std::optional<StepEffort> advance_unless(const State& old, State& trial, double time, double dt,

@@ -13,7 +13,7 @@ namespace {
 void check(const Phases& phases) {
   if (phases.heat == nullptr || phases.mechanics != nullptr)
     throw InputError({}, "derivatives are known of runs of heat alone", "physics = \"heat\"");
-  const auto stores = [](const contact::ContactPair* pair) { return pair->has_temperature(); };
+  const auto stores = [](const contact::ContactPair* pair) { return pair->parts().heat.has_temperature(); };
   if (std::ranges::any_of(phases.contacts, stores))
     throw InputError({}, "derivatives are not known where an interface stores heat",
                      "contacts without contact.interface.heat_capacity");
@@ -22,14 +22,14 @@ void check(const Phases& phases) {
 /// Whether the tangents of all pairs are exact: that of radiation is not (contact/heat/heat_term.hpp).
 bool exact(const Phases& phases) {
   return std::ranges::none_of(phases.contacts, [](const contact::ContactPair* pair) {
-    const auto& heat = pair->spec().heat;
+    const auto& heat = pair->parts().spec.heat;
     return heat && heat->slave_emissivity > 0 && heat->master_emissivity > 0;
   });
 }
 
 /// Heat through contact is that of a pass in which it flows, over this step.
 void begin_heat(const Phases& phases, double dt) {
-  for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(dt, false);
+  for (contact::ContactPair* pair : phases.contacts) pair->parts().heat.begin(dt, false);
 }
 
 }  // namespace

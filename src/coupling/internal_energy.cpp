@@ -40,8 +40,8 @@ bool has_internal_energy(const Phases& phases, bool bodies_come) {
   // Heat capacities at constant strain give an energy only if the material keeps its lines.
   for (std::size_t body = 0; body < mechanics.mesh().bodies.size(); ++body) {
     const auto number = static_cast<int>(body);
-    const material::Material& material = mechanics.material(number);
-    if ((bodies_come || mechanics.active().body(number)) &&
+    const material::Material& material = mechanics.bodies().material(number);
+    if ((bodies_come || mechanics.bodies().active.body(number)) &&
         material.specific_heat_at == material::SpecificHeatAt::constant_strain && !keeps_its_lines(material))
       return false;
   }

@@ -95,7 +95,7 @@ struct ContactSummary {
   /// The part of the liquid skin that has left its wall (contact::ContactParameters::leaving_gap): area [m²],
   /// largest gap [m].
   double left_area = 0, left_gap = 0;
-  double left_penetration = 0;  ///< contact::ContactPair::left_penetration
+  double left_penetration = 0;  ///< contact::Augmentations::left_penetration
 };
 
 /// Report of a scheme on a step that it took.

@@ -10,6 +10,7 @@
 #include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
 #include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/mechanical_restart.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"
@@ -47,7 +48,8 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts, earlier > 0);
   // A firmer hold of contact helps the first pass of a step that failed.
   if (pass.contact_hold != 1)
-    for (contact::ContactPair* pair : phases.contacts) pair->stabilise(pass.contact_hold);
+    for (contact::ContactPair* pair : phases.contacts)
+      pair->parts().forces.term().stabilisation().hold(pass.contact_hold);
   if (phases.structural != nullptr) phases.structural->release();
   mechanics::MechanicalReport report;
   // Each augmentation is a whole equilibrium with the multipliers of the one before.
@@ -110,7 +112,7 @@ void book_work(const mechanics::MechanicalReport& report, StepEffort& effort) {
 
 void book_excess_work(const Phases& phases, const mechanics::StepDeformation& deformation,
                       EnergyAudit& energy) {
-  if (phases.structural != nullptr && phases.mechanics->work_share() == 1)
+  if (phases.structural != nullptr && phases.mechanics->bodies().work_share() == 1)
     energy.excess_work = mechanics::excess_work(deformation);
 }
 
@@ -122,7 +124,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
   const double start = processes::wall_time();
   // Contacts rest where there is no mechanics; else they are as the mechanical phase left them.
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
-  for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
+  for (contact::ContactPair* pair : phases.contacts) pair->parts().heat.begin(pass.dt, pass.adiabatic);
   if (phases.structural != nullptr) phases.structural->set_deformation(deformation);
   if (pass.iterate == nullptr && &trial != &old) trial.heat = {};  // its memory serves the step
   heat::ThermalReport report = phases.heat->solve(old.heat, trial.heat, pass);
@@ -147,7 +149,9 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
   effort.energy.interface = {};
   commit_contact_heat(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
   // Contacts that have a temperature of their own are part of the new state.
-  const auto remembers = [](const contact::ContactPair* pair) { return pair->has_temperature(); };
+  const auto remembers = [](const contact::ContactPair* pair) {
+    return pair->parts().heat.has_temperature();
+  };
   if (phases.mechanics != nullptr || std::ranges::any_of(phases.contacts, remembers))
     trial.contacts = contact_states(phases);
   if (!pass.adiabatic) effort.fields.flows = std::move(report.flows);
@@ -166,7 +170,7 @@ bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial
   for (int iteration = 1; iteration <= k_most_flow_iterations; ++iteration) {
     const std::vector<double> led = trial.heat.temperature;
     const mechanics::FlowChange flow =
-        phases.mechanics->restart_flow(started, pass, led, trial.mechanics, deformation);
+        mechanics::restart_flow(*phases.mechanics, started, pass, led, trial.mechanics, deformation);
     if (iteration == 1 && !flow.flows) return converged;
     heat.iterate = &trial.heat;
     converged = thermal_pass(phases, old, trial, deformation, heat, effort);

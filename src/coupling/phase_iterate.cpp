@@ -14,7 +14,7 @@ namespace {
 bool changes_phase(const Phases& phases) {
   const std::size_t n_bodies = phases.mechanics->mesh().bodies.size();
   for (std::size_t b = 0; b < n_bodies; ++b) {
-    const material::Material& material = phases.mechanics->material(static_cast<int>(b));
+    const material::Material& material = phases.mechanics->bodies().material(static_cast<int>(b));
     const bool strains = std::ranges::any_of(material.phase_changes,
                                              [](const auto& change) { return change.volume_change != 0; });
     if (material.solidification() != nullptr || strains) return true;

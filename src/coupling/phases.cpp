@@ -39,7 +39,7 @@ std::vector<double> coherency_of(const Phases& phases, const mechanics::Mechanic
                                  const mechanics::MechanicalPass& pass) {
   if (phases.coherency == nullptr) return {};
   return phases.coherency->of(phases.mechanics->mean_solid_fraction(old, pass),
-                              phases.mechanics->nodal_phases().fields());
+                              phases.mechanics->bodies().nodal_phases.fields());
 }
 
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
@@ -69,7 +69,7 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
                                .wet_area = sums.wet_area,
                                .left_area = sums.left_area,
                                .left_gap = sums.left_gap,
-                               .left_penetration = pair->left_penetration()});
+                               .left_penetration = pair->parts().augmentations.left_penetration()});
   }
 }
 

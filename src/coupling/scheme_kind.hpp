@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "coupling/restart_data.hpp"
-#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/mechanics_options.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "system/objection.hpp"
 

@@ -10,6 +10,7 @@
 #include "coupling/gap_iteration_watch.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "mechanics/mechanical_restart.hpp"
 #include "system/errors.hpp"
 #include "system/profile.hpp"
 
@@ -54,7 +55,7 @@ void add_effort(const PhaseEffort& before, PhaseEffort& effort) {
 
 SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, const SequentialOptions& options)
     : phases_(std::move(phases)), options_(options) {
-  if (phases_.mechanics != nullptr && phases_.mechanics->mapping() != mapping)
+  if (phases_.mechanics != nullptr && phases_.mechanics->bodies().options.mapping != mapping)
     throw std::invalid_argument("the mechanical phase was built for another split");
   if (phases_.mechanics == nullptr || phases_.heat == nullptr) options_.order = PhaseOrder::mechanics_first;
 }
@@ -65,9 +66,9 @@ void SequentialSplit::synchronise(const State& state) {
 }
 
 void SequentialSplit::forget() {
-  if (phases_.mechanics != nullptr) phases_.mechanics->forget();
+  if (phases_.mechanics != nullptr) phases_.mechanics->system().solver().forget();
   if (phases_.heat != nullptr) phases_.heat->forget();
-  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 
 StepEffort SequentialSplit::advance(const State& old, State& trial, double time, double dt) {
@@ -185,7 +186,8 @@ SequentialSplit::Gaps SequentialSplit::expected_gaps(const State& old, double ti
       coupling::extrapolated(old.mechanics.displacement, old.displacement_rate, dt);
   if (moved.empty()) return start;
   Gaps end;
-  for (const contact::ContactPair* pair : phases_.contacts) end.push_back(pair->heat_gaps_ahead(moved, time));
+  for (const contact::ContactPair* pair : phases_.contacts)
+    end.push_back(pair->parts().gaps.ahead(moved, time));
   return middle(start, end);
 }
 
@@ -202,7 +204,7 @@ std::vector<char> SequentialSplit::steady_gaps(const Gaps& start, const Gaps& ex
 
 SequentialSplit::Gaps SequentialSplit::gaps() const {
   Gaps gaps;
-  for (const contact::ContactPair* pair : phases_.contacts) gaps.push_back(pair->heat_gaps());
+  for (const contact::ContactPair* pair : phases_.contacts) gaps.push_back(pair->parts().gaps.now());
   return gaps;
 }
 
@@ -210,7 +212,7 @@ std::vector<contact::GapHeat> SequentialSplit::gap_heat(const Gaps& used, const 
                                                         const State& warm) const {
   std::vector<contact::GapHeat> heat;
   for (std::size_t i = 0; i < used.size(); ++i)
-    heat.push_back(phases_.contacts[i]->gap_heat(used[i], right[i], warm.heat.temperature));
+    heat.push_back(phases_.contacts[i]->parts().gaps.heat(used[i], right[i], warm.heat.temperature));
   return heat;
 }
 
@@ -227,12 +229,12 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
   // chosen.
   StepEffort effort;
   if (phases_.structural != nullptr) phases_.structural->release();
-  const mechanics::StepDeformation held = phases_.mechanics->held_deformation(
-      old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat), true);
+  const mechanics::StepDeformation held = mechanics::held_deformation(
+      *phases_.mechanics, old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat), true);
   // A state that does not know its interface temperatures yet finds them first.
   if (interfaces_begin(phases_, old)) find_interface_temperatures(phases_, old, time - dt);
-  for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
-  for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->conduct_through(through[i]);
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().heat.hold_deformation();
+  for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->parts().gaps.use(through[i]);
   thermal_pass(
       phases_, old, warm, held,
       {.time = time, .dt = dt, .iterate = again ? &warm.heat : nullptr, .stepping = phases_.heat->stepping()},
@@ -288,7 +290,7 @@ mechanics::StepDeformation SequentialSplit::mechanical_phase(const State& old, c
                                                        effort);
   trial.displacement_rate = rate(old.mechanics.displacement, trial.mechanics.displacement, dt);
   trial.pressure_rate = rate(old.mechanics.pressure, trial.mechanics.pressure, dt);
-  contact.add(phases_.mechanics->work_share());
+  contact.add(phases_.mechanics->bodies().work_share());
   contact.book(effort.energy);
   book_excess_work(phases_, report.deformation, effort.energy);
   return std::move(report.deformation);

@@ -42,14 +42,15 @@ constexpr double k_flow_falls = 0.5;
 const Phases& checked(const Phases& phases, const SimultaneousOptions& options) {
   if (phases.heat == nullptr || phases.mechanics == nullptr)
     throw std::invalid_argument("the simultaneous scheme needs both phases");
-  if (phases.mechanics->mapping() != mechanics::Mapping::simultaneous)
+  if (phases.mechanics->bodies().options.mapping != mechanics::Mapping::simultaneous)
     throw std::invalid_argument("the mechanical phase was built for a split");
   using Form = mechanics::StructuralForm;
   if (phases.structural != nullptr && phases.structural->form() != Form::energy &&
       phases.structural->form() != Form::entropy)
     throw std::invalid_argument("the simultaneous scheme has the energy and the entropy form only");
-  const bool one_stage = phases.mechanics->dynamic() || phases.mechanics->options().integration !=
-                                                            mechanics::TimeIntegration::backward_euler;
+  const bool one_stage =
+      phases.mechanics->bodies().inertia != nullptr ||
+      phases.mechanics->bodies().options.integration != mechanics::TimeIntegration::backward_euler;
   if (one_stage && options.integration == SimultaneousOptions::Integration::sdirk2)
     throw std::invalid_argument("two stages are for quasi-statics with backward Euler");
   return phases;
@@ -83,8 +84,8 @@ void SimultaneousScheme::synchronise(const State& state) {
 
 void SimultaneousScheme::forget() {
   newton_->forget();
-  phases_.mechanics->forget();
-  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
+  phases_.mechanics->system().solver().forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 
 mechanics::StepDeformation SimultaneousScheme::drop_carried() {
@@ -121,7 +122,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
   // With structural heat the work of contact is booked as it was done between the stages; without it
   // deformation and heat exchange nothing, and the balance is that of heat alone.
   if (phases_.structural != nullptr) {
-    contact->add(phases_.mechanics->work_share());
+    contact->add(phases_.mechanics->bodies().work_share());
     contact->book(effort.energy);
     effort.energy.structural = mechanics::structural_change(deformation, trial.heat.temperature).energy;
   } else {
@@ -218,7 +219,7 @@ bool SimultaneousScheme::settled(const PhaseIterate& fractions, int iteration) {
   if (left <= k_settled) return true;
   const CoupledResidual& start = report_.residuals.front();
   return iteration > 0 && left <= k_balanced &&
-         start.force <= phases_.mechanics->options().newton.tolerance &&
+         start.force <= phases_.mechanics->bodies().options.newton.tolerance &&
          start.heat <= newton_->thermal().tolerance();
 }
 
@@ -231,10 +232,10 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   const double start = processes::wall_time();
   pass.iterate_temperature = newton_->thermal().temperature();
   begin_contacts(phases_, contacts, old, pass, coherency);
-  mechanics::NodalPressure* const pressure = phases_.mechanics->pressure();
-  if (pressure != nullptr) pressure->release_pores();
-  phases_.mechanics->begin(old, pass);
-  std::vector<double> x = phases_.mechanics->start(old, pass);
+  mechanics::NodalPressure* const pressure = phases_.mechanics->bodies().pressure.get();
+  if (pressure != nullptr) mechanics::release_pores(*pressure);
+  phases_.mechanics->equations().begin(old, pass);
+  std::vector<double> x = phases_.mechanics->bodies().start(old, pass);
   // The loop goes on as long as something that Newton's iteration holds must change: pores,
   // multipliers, limits of conduction, fractions of phases.
   int iterations = 0, linear_iterations = 0, revisions = 0, fraction_iterations = 0;
@@ -256,9 +257,10 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     }
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
-    const std::span<const double> pressures = std::span(x).subspan(phases_.mechanics->n_displacements());
+    const std::span<const double> pressures =
+        std::span(x).subspan(phases_.mechanics->bodies().n_displacements());
     // Pressures below that of a pore change which nodes are pores; the equilibrium is found again.
-    if (pressure != nullptr && pressure->fill_pores(pressures, solution)) continue;
+    if (pressure != nullptr && mechanics::fill_pores(*pressure, pressures, solution)) continue;
     if (!penetrations_small(phases_, solution)) {
       balanced = x;
       balanced_heat = newton_->thermal().state();
@@ -281,7 +283,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     fractions->hold(pass);
   }
   newton_->release_deformation();
-  mechanics::MechanicalReport solved = phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
+  mechanics::MechanicalReport solved =
+      phases_.mechanics->equations().conclude(old, pass, std::move(x), trial.mechanics);
   if (phases_.structural != nullptr) phases_.structural->set_deformation(solved.deformation);
   deformation = std::move(solved.deformation);
   const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);

@@ -95,7 +95,7 @@ StepEffort solve_steady(const Phases& phases, const State& initial, State& stead
                         const SteadyOptions& options) {
   if (phases.structural != nullptr)
     throw std::invalid_argument("in a steady state deformation exchanges no heat");
-  if (phases.mechanics != nullptr && phases.mechanics->dynamic())
+  if (phases.mechanics != nullptr && phases.mechanics->bodies().inertia != nullptr)
     throw std::invalid_argument("a steady state has no inertia");
   // Both fields are solved in alternation until the temperatures that deformation has seen are those that
   // heat finds.

@@ -54,12 +54,12 @@ CreepError::CreepError(const MechanicalPhase& phase) : phase_(phase) {
   const mesh::Mesh& mesh = phase.mesh();
   for (const mesh::ElementBlock& block : mesh.blocks) {
     Block& b = blocks_.emplace_back();
-    const material::Material& material = phase.material(block.body);
+    const material::Material& material = phase.bodies().material(block.body);
     b.creeps = creeps(material);
     if (!b.creeps) continue;
     any_ = true;
     b.first = material.solidification() != nullptr ? k_stress_components : 0;  // behind ε^v (law_parts.cpp)
-    const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, phase.kind());
+    const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, phase.bodies().kind);
     // Nodal weights of an element sum to its volume.
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_counted); ++e) {
@@ -120,7 +120,7 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
     if (b >= now.elements.size() || !now.elements[b]) continue;
     std::vector<double> stress(static_cast<std::size_t>(block.size()) * k_stress_components);
     now.elements[b]->get(ElementField::stress, stress);
-    const material::Material& material = phase_.material(block.body);
+    const material::Material& material = phase_.bodies().material(block.body);
     const material::Viscoplastic law(material);
     const auto n_points = static_cast<std::size_t>(error[b].n_points);
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));

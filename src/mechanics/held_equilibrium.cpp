@@ -19,10 +19,12 @@ class HeldEquilibrium final : public linear::NonlinearSystem {
  public:
   HeldEquilibrium(MechanicalPhase& phase, const MechanicalState& old, double share)
       : phase_(phase), old_(old), share_(share) {}
-  double residual(std::span<const double> x, std::span<double> r) override { return phase_.residual(x, r); }
+  double residual(std::span<const double> x, std::span<double> r) override {
+    return phase_.equations().residual(x, r);
+  }
   linear::BlockMatrix& tangent(std::span<const double> x) override;
   double relative_step(std::span<const double> x, std::span<const double> d) override {
-    return phase_.relative_step(old_, x, d);
+    return phase_.equations().relative_step(old_, x, d);
   }
   void accept(std::span<const double> x, std::span<const double> d, double alpha) override;
 
@@ -38,7 +40,7 @@ class HeldEquilibrium final : public linear::NonlinearSystem {
 };
 
 linear::BlockMatrix& HeldEquilibrium::tangent(std::span<const double> x) {
-  linear::BlockMatrix& matrix = phase_.tangent(x);
+  linear::BlockMatrix& matrix = phase_.equations().tangent(x);
   const auto n = static_cast<std::size_t>(matrix.block_size());
   const auto n_owned = static_cast<std::size_t>(phase_.mesh().n_owned_nodes);
   largest_.resize(n_owned * n, 0.0);
@@ -52,7 +54,7 @@ linear::BlockMatrix& HeldEquilibrium::tangent(std::span<const double> x) {
       block[c * n + c] += share_ * (largest - block[c * n + c]);
     }
   }
-  if (phase_.saddle() != nullptr) phase_.saddle()->assemble();
+  if (phase_.system().saddle() != nullptr) phase_.system().saddle()->assemble();
   return matrix;
 }
 
@@ -120,8 +122,8 @@ linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState
   options.max_iterations *= 2;
   options.descends = true;
   HeldEquilibrium held(phase, old, share);
-  const auto n = static_cast<std::size_t>(phase.mesh().n_owned_nodes * phase.components());
-  ShortSteps short_steps(solver, n, phase.components(), k_longest_way * diagonal);
+  const auto n = static_cast<std::size_t>(phase.mesh().n_owned_nodes * phase.bodies().components);
+  ShortSteps short_steps(solver, n, phase.bodies().components, k_longest_way * diagonal);
   return linear::newton(held, short_steps, ghosts, fields, x, options);
 }
 

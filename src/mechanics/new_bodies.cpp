@@ -28,15 +28,15 @@ void renew_nodes(const mesh::Mesh& mesh, const std::vector<char>& bodies, Mechan
 void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies, MechanicalState& state) {
   for (std::size_t b = 0; b < phase.mesh().blocks.size(); ++b) {
     if (bodies[static_cast<std::size_t>(phase.mesh().blocks[b].body)] == 0) continue;
-    if (!phase.active().body(phase.mesh().blocks[b].body)) continue;  // it only conducts heat
+    if (!phase.bodies().active.body(phase.mesh().blocks[b].body)) continue;  // it only conducts heat
     // A history of its own, no stress, and the solid fraction with which it was poured.
-    state.history[b] = phase.blocks()[b]->initial_history();
+    state.history[b] = phase.bodies().blocks[b]->initial_history();
     if (b < state.elements.size()) state.elements[b].reset();
     // With the two-step method the history before the last is that of a body at rest, too.
     if (!state.before.empty()) state.before[b] = state.history[b];
     if (state.solid_fraction.empty()) continue;
-    const std::vector<double>& poured = phase.nodal_phases().initial_solid_fraction();
-    const BodyFields& fields = phase.nodal_phases().fields();
+    const std::vector<double>& poured = phase.bodies().nodal_phases.initial_solid_fraction();
+    const BodyFields& fields = phase.bodies().nodal_phases.fields();
     const auto field = fields.of_body[static_cast<std::size_t>(phase.mesh().blocks[b].body)];
     for (const Index node : phase.mesh().blocks[b].nodes) {
       const auto place = static_cast<std::size_t>(node * fields.n_fields + field);
@@ -48,10 +48,10 @@ void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies
 void spread_heat_as_stored(const MechanicalPhase& phase, bool closed) {
   const std::vector<mesh::ElementBlock>& blocks = phase.mesh().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
-    phase.blocks()[b]->spread_heat_as_stored(
-        closed || phase.material(blocks[b].body).changes_isothermally()
-            ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.kind())
-            : mesh::basis_integrals(phase.mesh(), blocks[b], phase.kind()));
+    phase.bodies().blocks[b]->spread_heat_as_stored(
+        closed || phase.bodies().material(blocks[b].body).changes_isothermally()
+            ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.bodies().kind)
+            : mesh::basis_integrals(phase.mesh(), blocks[b], phase.bodies().kind));
 }
 
 }  // namespace solidus::mechanics

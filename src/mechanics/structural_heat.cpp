@@ -6,6 +6,7 @@
 
 #include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/elements/structural_points.hpp"
+#include "mechanics/mechanical_restart.hpp"
 #include "mechanics/new_bodies.hpp"
 
 namespace solidus::mechanics {
@@ -17,7 +18,7 @@ struct StructuralHeat::Stages {
 StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
     : phase_(phase), form_(form), stages_(std::make_unique<Stages>()) {
   for (const mesh::ElementBlock& block : phase.mesh().blocks)
-    at_nodes_.push_back(closed || phase.material(block.body).changes_isothermally());
+    at_nodes_.push_back(closed || phase.bodies().material(block.body).changes_isothermally());
   spread_heat_as_stored(phase, closed);
 }
 
@@ -102,7 +103,7 @@ double excess_work(const StepDeformation& deformation) {
 double structural_energy(MechanicalPhase& phase, const MechanicalState& state,
                          std::span<const double> temperature, std::span<const double> plateau_share) {
   double total = 0;
-  for (const auto& points : phase.held_deformation(state, temperature, plateau_share))
+  for (const auto& points : held_deformation(phase, state, temperature, plateau_share))
     if (points) total += points->energy(temperature);
   return parallel::global_sum(total);
 }

@@ -109,13 +109,13 @@ class Driver {
   bool pending() const { return session_->pending(); }
   double time() const { return session_->state().time; }
   py::dict record() const { return dict_of(session_->record()); }
-  std::string resolved() const { return session_->running().toml(); }
-  std::optional<double> end() const { return session_->running().spec.time.end; }
-  std::string title() const { return session_->running().spec.title; }
+  std::string resolved() const { return session_->made().running.toml(); }
+  std::optional<double> end() const { return session_->made().running.spec.time.end; }
+  std::string title() const { return session_->made().running.spec.title; }
 
   std::vector<std::string> bodies() const {
     std::vector<std::string> names;
-    for (const cases::BodySpec& body : session_->running().spec.bodies) names.push_back(body.name);
+    for (const cases::BodySpec& body : session_->made().running.spec.bodies) names.push_back(body.name);
     return names;
   }
 
@@ -124,7 +124,7 @@ class Driver {
   py::dict mesh() {
     bring_up_to_date(false);
     // Coordinates in one flat list, three a node.
-    const mesh::Mesh& m = session_->assembly().mesh;
+    const mesh::Mesh& m = session_->made().assembly.mesh;
     std::vector<double> points;
     points.reserve(3 * m.x.size());
     for (const mesh::Point& x : m.x) points.insert(points.end(), x.begin(), x.end());
@@ -180,7 +180,7 @@ class Driver {
       for (std::size_t i = 0; i < padded; ++i) taken.push_back(i < nc ? values[entity * nc + i] : 0.0);
     };
     if (found->place == mesh::FieldPlace::node)
-      for (std::size_t i = 0; i < session_->assembly().mesh.x.size(); ++i) take(i);
+      for (std::size_t i = 0; i < session_->made().assembly.mesh.x.size(); ++i) take(i);
     else
       for_cells([&](const mesh::ElementBlock&, Index, std::size_t number) { take(number); });
     const auto n = static_cast<py::ssize_t>(taken.size() / padded);
@@ -207,7 +207,7 @@ class Driver {
   /// @param use  called with the block, the element and its number among all
   template <class Use>
   void for_cells(Use use) {
-    const mesh::Mesh& m = session_->assembly().mesh;
+    const mesh::Mesh& m = session_->made().assembly.mesh;
     const linear::ActiveSet* active = state_fields().bodies().active();
     std::size_t first = 0;
     for (const mesh::ElementBlock& block : m.blocks) {
@@ -218,8 +218,8 @@ class Driver {
   }
 
   results::StateFields& state_fields() {
-    const setup::Assembly& a = session_->assembly();
-    if (!fields_) fields_.emplace(a.mesh, a.phases, session_->running().spec.analysis.kind);
+    const setup::Assembly& a = session_->made().assembly;
+    if (!fields_) fields_.emplace(a.mesh, a.phases, session_->made().running.spec.analysis.kind);
     return *fields_;
   }
 
@@ -236,7 +236,7 @@ class Driver {
   }
 
   bool is_criterion(const std::string& name) const {
-    const criteria::Criteria* criteria = session_->assembly().phases.criteria;
+    const criteria::Criteria* criteria = session_->made().assembly.phases.criteria;
     if (criteria == nullptr) return false;
     const std::vector<const quantities::Quantity*> fields = criteria->fields();
     return std::any_of(fields.begin(), fields.end(), [&](const auto* field) { return field->name == name; });

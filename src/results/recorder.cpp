@@ -20,7 +20,7 @@ namespace solidus::results {
 namespace {
 
 bool dynamic(const coupling::Phases& phases) {
-  return phases.mechanics != nullptr && phases.mechanics->dynamic();
+  return phases.mechanics != nullptr && phases.mechanics->bodies().inertia != nullptr;
 }
 
 bool follows_internal_energy(const coupling::Phases& phases, const RecorderOptions& options) {
@@ -34,7 +34,7 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .contact = !phases.contacts.empty(),
                                  .mechanics = phases.mechanics != nullptr,
                                  .taken = taken,
-                                 .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
+                                 .plastic = phases.mechanics != nullptr && phases.mechanics->bodies().plastic,
                                  .dynamics = dynamic(phases),
                                  .stability = phases.audits_stability(),
                                  .heat = phases.heat != nullptr,
@@ -45,8 +45,8 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
   // Columns of each pair as far as it has friction and heat.
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
-      columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(),
-                               phases.heat != nullptr && pair->spec().heat.has_value(), options.kind});
+      columns.pairs.push_back({pair->parts().spec.name, pair->parts().spec.friction.has_value(),
+                               phases.heat != nullptr && pair->parts().spec.heat.has_value(), options.kind});
   return columns;
 }
 
@@ -273,7 +273,7 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
   for (std::size_t i = 0; i < record.contacts.size(); ++i) {
     const coupling::ContactSummary& now = record.contacts[i];
     if (!(now.left_area > 0)) continue;
-    const std::string& name = phases_.contacts[i]->spec().name;
+    const std::string& name = phases_.contacts[i]->parts().spec.name;
     auto wall = std::find_if(left.begin(), left.end(), [&](const LeftWall& w) { return w.contact == name; });
     if (wall == left.end())
       wall = left.insert(wall, {.contact = name, .gap = 0, .area = 0, .from = record.time, .to = 0});
@@ -288,7 +288,7 @@ void Recorder::note_unsettled_augmentations(const coupling::StepRecord& record) 
   for (std::size_t i = 0; i < record.contacts.size(); ++i) {
     const double left = record.contacts[i].left_penetration;
     if (!(left > 0)) continue;
-    const std::string& name = phases_.contacts[i]->spec().name;
+    const std::string& name = phases_.contacts[i]->parts().spec.name;
     auto pair = std::ranges::find(pairs, name, &UnsettledAugmentations::contact);
     if (pair == pairs.end()) pair = pairs.insert(pair, {.contact = name});
     ++pair->steps;
@@ -323,7 +323,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   Summary& s = options_.summary;
   if (mechanical && phases_.mechanics != nullptr)
     // Answers are found from the fields of the last state, with the criteria that were accumulated.
-    tell_stress_jumps(mesh_, phases_.mechanics->kind(), fields_.bodies(), options_.castings);
+    tell_stress_jumps(mesh_, phases_.mechanics->bodies().kind, fields_.bodies(), options_.castings);
   if (!options_.steady) {
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);
@@ -390,16 +390,16 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
     s.table_bytes.emplace_back("heat", phases_.heat->bytes());
   }
   if (phases_.mechanics != nullptr) {
-    s.seconds.emplace_back("mechanics_assembly", phases_.mechanics->seconds_assembly());
-    s.seconds.emplace_back("mechanics_residual", phases_.mechanics->seconds_residual());
-    s.seconds.emplace_back("mechanics_solver", phases_.mechanics->seconds_solver());
+    s.seconds.emplace_back("mechanics_assembly", phases_.mechanics->equations().seconds().assembly);
+    s.seconds.emplace_back("mechanics_residual", phases_.mechanics->equations().seconds().residual);
+    s.seconds.emplace_back("mechanics_solver", phases_.mechanics->system().seconds());
     std::size_t bytes = phases_.mechanics->bytes();
     for (const mechanics::SharedElementValues& values : state.mechanics.elements)
       if (values) bytes += values->bytes();
     s.table_bytes.emplace_back("mechanics", bytes);
   }
   for (const contact::ContactPair* pair : phases_.contacts)
-    s.table_bytes.emplace_back("contact " + pair->spec().name, pair->bytes());
+    s.table_bytes.emplace_back("contact " + pair->parts().spec.name, pair->bytes());
   s.balance = balance(mesh_, s.seconds);
   if (phases_.criteria != nullptr) {
     s.criteria = phases_.criteria->findings(state.criteria);

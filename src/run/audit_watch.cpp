@@ -91,8 +91,8 @@ void WallWatch::report() const {
       texts.push_back(fmt::format(
           "contact '{}': liquid metal left its wall, {:.3g} mm2 of it at most, by up to {:.3g} mm at "
           "t = {:g} s; more than {:.3g} mm, 1 % of the free contraction, counts",
-          contacts_[i]->spec().name, 1e6 * largest_[i].area, 1e3 * largest_[i].gap, largest_[i].time,
-          1e3 * contacts_[i]->spec().leaving_gap));
+          contacts_[i]->parts().spec.name, 1e6 * largest_[i].area, 1e3 * largest_[i].gap, largest_[i].time,
+          1e3 * contacts_[i]->parts().spec.leaving_gap));
   for (const std::string& text : logging::told_once(texts)) logging::warn("{}", text);
 }
 

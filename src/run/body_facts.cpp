@@ -31,7 +31,7 @@ class Bodies {
   void measure(std::vector<BodyFacts>& facts) const {
     for (std::size_t b = 0; b < n_; ++b) {
       const auto body = static_cast<int>(b);
-      facts[b].moves = a_.mechanics->active().body(body);
+      facts[b].moves = a_.mechanics->bodies().active.body(body);
       facts[b].plastic = a_.materials[b].flow.has_value();
     }
     measure_boxes(facts);
@@ -76,7 +76,7 @@ void Bodies::weigh(std::vector<BodyFacts>& facts) const {
   for (std::size_t k = 0; k < a_.mesh.blocks.size(); ++k) {
     const auto body = static_cast<std::size_t>(a_.mesh.blocks[k].body);
     std::vector<double> mass(a_.mesh.x.size(), 0.0);
-    a_.mechanics->blocks()[k]->add_nodal_volume(a_.materials[body].density, mass);
+    a_.mechanics->bodies().blocks[k]->add_nodal_volume(a_.materials[body].density, mass);
     for (Index i = 0; i < a_.mesh.n_owned_nodes; ++i) weight[body] += mass[at(i)];
   }
   processes::sum(weight);
@@ -99,8 +99,8 @@ bool Bodies::holds(const double* prescribed, int components) const {
 void Bodies::find_supports(std::vector<BodyFacts>& facts) const {
   // Which components of a body are prescribed at any node, and which bodies share nodes, is found on each
   // process and combined over all.
-  const int n_components = a_.mechanics->components();
-  const std::vector<char>& fixed = a_.mechanics->fixed();
+  const int n_components = a_.mechanics->bodies().components;
+  const std::vector<char>& fixed = a_.mechanics->system().matrix().fixed();
   std::vector<double> prescribed(3 * n_, 0.0), joined(n_ * n_, 0.0);
   std::vector<int> first(a_.mesh.x.size(), -1);
   for (const mesh::ElementBlock& block : a_.mesh.blocks) {
@@ -159,9 +159,10 @@ void find_contacts(const setup::Assembly& a, const coupling::State& last,
   // Each active pair: which bodies are on its sides, how many points it has, how many are closed.
   for (std::size_t i = 0; i < a.phases.contacts.size(); ++i) {
     const contact::ContactPair& pair = *a.phases.contacts[i];
-    if (!pair.active()) continue;
-    Pair found{bodies_of(a.mesh, pair.spec().slave), {}, pair.spec().rigid_master.has_value(), false};
-    if (!found.rigid) found.master = bodies_of(a.mesh, pair.spec().master);
+    if (!pair.parts().forces.active()) continue;
+    Pair found{
+        bodies_of(a.mesh, pair.parts().spec.slave), {}, pair.parts().spec.rigid_master.has_value(), false};
+    if (!found.rigid) found.master = bodies_of(a.mesh, pair.parts().spec.master);
     coupling::ContactPoints points;
     const auto& state = pair.state().points;
     points.all = std::llround(parallel::global_sum(
@@ -182,7 +183,7 @@ void find_contacts(const setup::Assembly& a, const coupling::State& last,
         of_body.before += points.before;
         of_body.now += points.now;
         of_body.changed += points.changed;
-        facts[b].rubs |= pair.spec().friction.has_value();
+        facts[b].rubs |= pair.parts().spec.friction.has_value();
       }
     pairs.push_back(std::move(found));
   }
@@ -205,7 +206,7 @@ void find_contacts(const setup::Assembly& a, const coupling::State& last,
 /// The largest change of a distance between neighbouring nodes of an element at the last step, of every body.
 void find_elongation(const setup::Assembly& a, const coupling::State& last, std::vector<BodyFacts>& facts) {
   const std::vector<double>& u = last.mechanics.displacement;
-  const auto n = at(a.mechanics->components());
+  const auto n = at(a.mechanics->bodies().components);
   std::vector<double> largest(facts.size(), 0.0);
   // Edges between neighbouring nodes in their numbering: a few for each element are enough to see a
   // strain of a mechanism.
@@ -234,7 +235,7 @@ void find_motion(const setup::Assembly& a, const coupling::State& last, const me
                  std::vector<BodyFacts>& facts) {
   const std::vector<double>&now = iterate.displacement, &before = last.mechanics.displacement;
   if (parallel::any_process(now.size() != before.size())) return;
-  const auto n = at(a.mechanics->components());
+  const auto n = at(a.mechanics->bodies().components);
   // The farthest node of each body on this process;
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
     BodyFacts& body = facts[at(block.body)];

@@ -138,7 +138,7 @@ void find_contact_heat(const setup::Assembly& a, const coupling::State& last, In
   const double capacity = node >= 0 ? a.heat->storage().capacity(node, temperature) : 0.0;
   for (std::size_t i = 0; i < number.size(); ++i) {
     const contact::ContactPair& pair = *a.phases.contacts[i];
-    if (!pair.active() || !pair.spec().heat || !(capacity > 0)) continue;
+    if (!pair.parts().forces.active() || !pair.parts().spec.heat || !(capacity > 0)) continue;
     const contact::ContactNodalFields fields = contact::nodal_fields(pair.view(), last.heat.temperature);
     const auto found = std::ranges::find(fields.nodes, node);
     if (found == fields.nodes.end()) continue;
@@ -150,7 +150,7 @@ void find_contact_heat(const setup::Assembly& a, const coupling::State& last, In
   const auto largest = std::ranges::max_element(number);
   if (largest == number.end() || !(*largest > 0)) return;
   d.conductance_number = *largest;
-  d.contact_name = a.phases.contacts[static_cast<std::size_t>(largest - number.begin())]->spec().name;
+  d.contact_name = a.phases.contacts[static_cast<std::size_t>(largest - number.begin())]->parts().spec.name;
 }
 
 /// Whether a temperature is above all that bodies were poured at and that is around them: flow has heated it.
@@ -231,7 +231,7 @@ Diagnosis diagnose(const cases::CaseSpec& spec, setup::Assembly& a, const std::s
   describe_body(a, last, *body, facts[*body], d);
   // Then the kind of the failure is named from what is certain (nothing carries the body) to what is left.
   const Failure failure = rejected.failure();
-  if (!facts[*body].carried && d.weight > 0 && !a.mechanics->dynamic()) {
+  if (!facts[*body].carried && d.weight > 0 && a.mechanics->bodies().inertia == nullptr) {
     d.physics = coupling::Physics::nothing_carries;
   } else if (failure == Failure::multipliers) {
     d.physics = coupling::Physics::multipliers;
@@ -239,7 +239,7 @@ Diagnosis diagnose(const cases::CaseSpec& spec, setup::Assembly& a, const std::s
              failure == Failure::another_solution) {
     d.physics = coupling::Physics::phases;
   } else if (equilibrium != nullptr) {
-    d.physics = physics_of(facts[*body], d, failure, a.mechanics->dynamic());
+    d.physics = physics_of(facts[*body], d, failure, a.mechanics->bodies().inertia != nullptr);
   }
   // A law that fails at a temperature below zero is one of heat.
   if (d.physics == coupling::Physics::law) {

@@ -101,7 +101,7 @@ std::set<int> bodies_of(const mesh::Mesh& mesh, const std::string& surface) {
 Json interfaces_json(const setup::Assembly& a, double temperature) {
   Json::Array interfaces;
   for (const auto& pair : a.contacts) {
-    const contact::ContactParameters& p = pair->spec();
+    const contact::ContactParameters& p = pair->parts().spec;
     if (!p.heat) continue;
     const contact::HeatTransferLaw law(contact::without_bodies(*p.heat));
     double conductance = law.at(0, 0, temperature).value;

@@ -37,8 +37,9 @@ void GapWatch::report() const {
         "contact '{}': gaps changed within steps after their heat had passed; that misplaced {:.2g} % of it, "
         "most in the step of {:g} s to t = {:g} s, {:.3g} of {:.3g} J in all; shorter steps there, a smaller "
         "coupling.gap_tolerance, or coupling.scheme = {}",
-        contacts_[i]->spec().name, 100 * pair.late / pair.all, pair.worst_step, pair.worst_time, pair.worst,
-        pair.all, coupling::names_of_schemes([](const coupling::SchemeTraits& t) { return t.iterates; }));
+        contacts_[i]->parts().spec.name, 100 * pair.late / pair.all, pair.worst_step, pair.worst_time,
+        pair.worst, pair.all,
+        coupling::names_of_schemes([](const coupling::SchemeTraits& t) { return t.iterates; }));
     if (pair.late > k_worth_a_warning * pair.all)
       logging::warn("{}", text);
     else

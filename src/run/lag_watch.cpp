@@ -63,7 +63,7 @@ FrictionLagWatch::FrictionLagWatch(const std::vector<contact::ContactPair*>& con
                                    bool after_heat)
     : contacts_(contacts), pairs_(contacts.size()), maps_again_(maps_again), after_heat_(after_heat) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (const auto& friction = contacts[i]->spec().friction)
+    if (const auto& friction = contacts[i]->parts().spec.friction)
       pairs_[i].coefficient.emplace(friction->coefficient);
 }
 
@@ -85,7 +85,7 @@ void FrictionLagWatch::step(const coupling::StepRecord&, const coupling::State& 
     if (!pair.coefficient) continue;
     pair.work.resize(points.size(), 0.0);
     std::vector<double> conducted;
-    if (after_heat_) conducted = contacts_[i]->conducted_temperatures(state.heat.temperature);
+    if (after_heat_) conducted = contacts_[i]->parts().heat.conducted_temperatures(state.heat.temperature);
     for (std::size_t p = 0; p < points.size(); ++p) {
       // For each slipping point the work since the step before, and what the coefficient at today's
       // temperature would have given.
@@ -116,7 +116,7 @@ void FrictionLagWatch::report() const {
             "contact '{}': friction slips with the coefficient of the temperature before each step; "
             "its tractions are {:.3g} % off that of their own time, on average over its work; less in "
             "shorter steps, not at all with {}coupling.scheme = {}",
-            contacts_[i]->spec().name, 100 * late / all,
+            contacts_[i]->parts().spec.name, 100 * late / all,
             maps_again_ ? "thermal_return_mapping in [contact.friction] or with " : "",
             coupling::names_of_schemes([](const coupling::SchemeTraits& t) {
               return t.iterates || t.mapping == mechanics::Mapping::simultaneous;

@@ -73,8 +73,8 @@ results::RecorderOptions recorder_options(const setup::Case& c, const RunOptions
   r.summary.title = spec.title;
   r.summary.mesh = counts(spec, a.mesh);
   if (a.mechanics)
-    for (std::size_t b = 0; b < a.mechanics->melt().size(); ++b)
-      if (const material::MeltModulus& melt = a.mechanics->melt()[b]; melt.modulus > 0)
+    for (std::size_t b = 0; b < a.mechanics->bodies().melt.size(); ++b)
+      if (const material::MeltModulus& melt = a.mechanics->bodies().melt[b]; melt.modulus > 0)
         r.summary.melt.push_back(
             {spec.bodies[b].name, melt.modulus, melt.time, material::measured_against(melt)});
   r.summary.processes = processes::count();

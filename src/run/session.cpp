@@ -269,12 +269,8 @@ const coupling::StepRecord& Session::record() const {
   return parts_->begun ? parts_->simulation().record() : parts_->steady_record;
 }
 
-const setup::Case& Session::running() const {
-  return parts_->c;
-}
-
-const setup::Assembly& Session::assembly() const {
-  return parts_->a;
+Session::Made Session::made() const {
+  return {parts_->c, parts_->a};
 }
 
 const results::Summary* Session::summary() const {

@@ -78,12 +78,17 @@ class Session {
   /// what the case could not say either, and for other keys.
   void change(const std::string& assignment);
 
+  /// Whether there is a step that can be repeated.
   bool pending() const;
   /// The state of the pending step, else the last committed one; of a steady case the one reached.
   const coupling::State& state() const;
   const coupling::StepRecord& record() const;
-  const setup::Case& running() const;
-  const setup::Assembly& assembly() const;
+  /// The case that runs, with what has been changed, and what has been made of it.
+  struct Made {
+    const setup::Case& running;
+    const setup::Assembly& assembly;
+  };
+  Made made() const;
   /// What summary.json says, after run(); null without a folder.
   const results::Summary* summary() const;
 

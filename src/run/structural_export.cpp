@@ -169,7 +169,7 @@ ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& 
     throw InputError(spec.analysis.where,
                      "a temperature history is of one stage: bodies come and go in stages",
                      "the end of the run, without --temperature-history");
-  const linear::ActiveSet& active = a.mechanics->active();
+  const linear::ActiveSet& active = a.mechanics->bodies().active;
   results::StructuralDeck deck{
       .title = spec.title.empty() ? "Solidus" : spec.title,
       .kind = spec.analysis.kind,
@@ -180,8 +180,9 @@ ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& 
       .temperature = {},
       .stress = {},
       .plastic_strain = {},
-      .fixed = a.mechanics->fixed(),
-      .constraints = tied_entries(a.mechanics->constraints(), a.mechanics->fixed().size()),
+      .fixed = a.mechanics->system().matrix().fixed(),
+      .constraints = tied_entries(a.mechanics->system().matrix().constraints(),
+                                  a.mechanics->system().matrix().fixed().size()),
       .force = {},
       .history = results::read_temperature_history(options.folder / "fields.pvd", a.mesh, active)};
   for (const cases::BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
@@ -229,7 +230,7 @@ std::size_t add_stresses(const cases::CaseSpec& spec, const setup::Assembly& a, 
     deck.stress.emplace_back();
     deck.plastic_strain.emplace_back(of_block, of_block + block.size());
     of_block += block.size();
-    if (!a.mechanics->active().body(block.body)) continue;
+    if (!a.mechanics->bodies().active.body(block.body)) continue;
     const int n_modes = spec.mechanics.b_bar ? volumetric_modes(block.shape) : 0;
     deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], n_modes);
     n_elements += deck.stress[b].size();
@@ -270,20 +271,20 @@ ExportReport export_state(const setup::Case& c, const ExportOptions& options) {
                                std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));
 
   // The deck holds the stresses of all points of active bodies, without contact, whose forces become loads.
-  const linear::ActiveSet& active = a.mechanics->active();
-  results::StructuralDeck deck{
-      .title = spec.title.empty() ? "Solidus" : spec.title,
-      .kind = spec.analysis.kind,
-      .mesh = a.mesh,
-      .active = active,
-      .materials = a.materials,
-      .displacement = {},
-      .temperature = temperature,
-      .stress = {},
-      .plastic_strain = {},
-      .fixed = a.mechanics->fixed(),
-      .constraints = tied_entries(a.mechanics->constraints(), still.mechanics.displacement.size()),
-      .force = solved.applied};
+  const linear::ActiveSet& active = a.mechanics->bodies().active;
+  results::StructuralDeck deck{.title = spec.title.empty() ? "Solidus" : spec.title,
+                               .kind = spec.analysis.kind,
+                               .mesh = a.mesh,
+                               .active = active,
+                               .materials = a.materials,
+                               .displacement = {},
+                               .temperature = temperature,
+                               .stress = {},
+                               .plastic_strain = {},
+                               .fixed = a.mechanics->system().matrix().fixed(),
+                               .constraints = tied_entries(a.mechanics->system().matrix().constraints(),
+                                                           still.mechanics.displacement.size()),
+                               .force = solved.applied};
   for (const cases::BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   report.supports = deck.supports.size();

@@ -68,13 +68,14 @@ void check_coverage(const cases::CaseSpec& spec, const Assembly& a) {
     double covered = 0;
     bool slides = false;
     for (const auto& other : a.contacts) {
-      if (other->spec().slave != pair->spec().slave) continue;
+      if (other->parts().spec.slave != pair->parts().spec.slave) continue;
       covered += other->geometry().kinematics().coverage();
-      slides = slides || other->spec().formulation == contact::Formulation::large_sliding;
+      slides = slides || other->parts().spec.formulation == contact::Formulation::large_sliding;
     }
     if (!slides && covered < (spec.contacts[c].surfaces.empty() ? k_given : k_found))
       logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
-                    pair->spec().name, 100 * pair->geometry().kinematics().coverage(), pair->spec().slave);
+                    pair->parts().spec.name, 100 * pair->parts().geometry.kinematics().coverage(),
+                    pair->parts().spec.slave);
   }
 }
 
@@ -106,15 +107,15 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
   mechanics::MechanicsOptions options = mechanics_options(spec);
   options.initial_stress = initial_stress(spec, a.mesh, a.materials, a.start);
   for (const auto& pair : a.contacts) {
-    contributions.push_back(&pair->mechanics());
-    options.symmetric = options.symmetric && pair->forces().symmetric();
-    a.initial.contacts.push_back(pair->history().initial());
+    contributions.push_back(&pair->parts().forces.term());
+    options.symmetric = options.symmetric && pair->parts().forces.symmetric();
+    a.initial.contacts.push_back(pair->parts().history.initial());
   }
   // The matrix of the simultaneous scheme is unsymmetric anyway.
   if (options.mapping == mechanics::Mapping::simultaneous &&
-      std::ranges::any_of(a.contacts, [](const auto& pair) { return pair->slides(); }))
+      std::ranges::any_of(a.contacts, [](const auto& pair) { return pair->parts().slides(); }))
     options.symmetric = false;
-  for (const auto& pair : a.contacts) pair->follow_weights(!options.symmetric);
+  for (const auto& pair : a.contacts) pair->parts().forces.term().follow_weights(!options.symmetric);
   mechanics::MechanicalConditions conditions = mechanical_conditions(spec, a.first_stage());
   conditions.absent_bodies =
       absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins
@@ -124,13 +125,14 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
                                                              initial_temperature, std::move(conditions),
                                                              std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
-  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
+  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->bodies().active);
   if (!a.coherency->melts()) return;
   a.phases.coherency = a.coherency.get();
   std::vector<std::string> in_contact;
   for (const auto& pair : a.contacts)
-    for (const std::string& surface : {pair->spec().slave, pair->spec().master})
-      if (surface != pair->spec().master || !pair->spec().rigid_master) in_contact.push_back(surface);
+    for (const std::string& surface : {pair->parts().spec.slave, pair->parts().spec.master})
+      if (surface != pair->parts().spec.master || !pair->parts().spec.rigid_master)
+        in_contact.push_back(surface);
   a.skin = std::make_unique<coupling::SkinShare>(a.mesh, spec.analysis.kind, in_contact, *a.coherency);
   if (a.skin->any()) a.phases.skin = a.skin.get();
 }
@@ -139,11 +141,11 @@ void build_heat(const cases::CaseSpec& spec, const InitialTemperatures& start, A
   // Contacts and the deforming structure add heat; the matrix is symmetric only if that of every contact is.
   std::vector<linear::Contribution*> contributions;
   for (const auto& pair : a.contacts)
-    if (pair->heat() != nullptr) contributions.push_back(pair->heat());
+    if (pair->parts().heat.term() != nullptr) contributions.push_back(pair->parts().heat.term());
   if (a.structural) contributions.push_back(a.structural.get());
   // One contact without a symmetric matrix is enough to make that of the whole unsymmetric.
   heat::HeatOptions options = heat_options(spec);
-  for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
+  for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->parts().heat.symmetric();
   heat::ThermalConditions conditions = thermal_conditions(spec, a.first_stage());
   conditions.absent_bodies.clear();  // they leave when the first stage begins
   // The phase keeps references to the mesh and the materials, which the assembly outlives it with.
@@ -219,11 +221,11 @@ void renew_contacts(const cases::CaseSpec& spec, const std::vector<char>& fresh,
   };
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     // Of a new side the history is forgotten, that of the other one stays.
-    const contact::ContactParameters& pair = a.contacts[i]->spec();
+    const contact::ContactParameters& pair = a.contacts[i]->parts().spec;
     const bool slave = is_new(pair.slave), master = is_new(pair.master);
     if (slave || master)
-      state.contacts[i] = a.contacts[i]->renewed_state(state.contacts[i], slave, master,
-                                                       state.mechanics.displacement, state.time);
+      state.contacts[i] = a.contacts[i]->parts().history.renewed(state.contacts[i], slave, master,
+                                                                 state.mechanics.displacement, state.time);
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "cases/case_spec.hpp"
 #include "cases/stage_input.hpp"
-#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/mechanics_options.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::setup {

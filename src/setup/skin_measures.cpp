@@ -70,8 +70,8 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   // What check tells of a contact: areas and sizes of faces of both sides, the gaps as the bodies lie, and
   // how the faces are inclined to gravity.
   ContactMeasures m;
-  m.slave = pair.spec().slave;
-  m.master = pair.spec().master;
+  m.slave = pair.parts().spec.slave;
+  m.master = pair.parts().spec.master;
   m.slave_body = body_of(mesh, m.slave);
   m.master_body = body_of(mesh, m.master);
   m.area = measure_surface(mesh, m.slave, kind).area;
@@ -82,7 +82,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   // Gaps are measured at the points of contact, weighted by their area; those at the start have the initial
   // offset taken away.
   double low = std::numeric_limits<double>::max(), high = -low, low_start = low, high_start = high;
-  const contact::ContactKinematics& kinematics = pair.geometry().kinematics();
+  const contact::ContactKinematics& kinematics = pair.parts().geometry.kinematics();
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     if (!kinematics.particle(p).counted) continue;
     const contact::PointMotion motion =
@@ -97,7 +97,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
     }
     low = std::min(low, -motion.penetration);
     high = std::max(high, -motion.penetration);
-    const double start = -motion.penetration - pair.geometry().initial_offset(p, motion.penetration);
+    const double start = -motion.penetration - pair.parts().geometry.initial_offset(p, motion.penetration);
     m.mean_start += motion.weight * std::max(0.0, start);
     low_start = std::min(low_start, start);
     high_start = std::max(high_start, start);

@@ -148,7 +148,7 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
   const contact::ContactPair& wall = *a.contacts[0];
   const double height = solid ? 0.024 : 0.03,
                push = 0.5 * a.materials[0].density * 9.81 * height * height * (solid ? 0.024 : 1.0);
-  Skin skin{.leaving_gap = wall.spec().leaving_gap};
+  Skin skin{.leaving_gap = wall.parts().spec.leaving_gap};
   coupling::State old = a.initial, next = old;
   double defect = 0, exchanged = 0, dt = 0.5;
   int counted = 0;

@@ -97,7 +97,7 @@ PartialSlip pull(int n, contact::Formulation formulation) {
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   double closed = 0, sticking = 0;
   for (std::size_t i = 0; i < bodies.contact.points.size(); ++i) {
-    const auto particle = bodies.pair.geometry().kinematics().particle(static_cast<Index>(i));
+    const auto particle = bodies.pair.parts().geometry.kinematics().particle(static_cast<Index>(i));
     if (!particle.counted) continue;
     const contact::ContactPointState& point = bodies.contact.points[i];
     const double x = particle.position[0];

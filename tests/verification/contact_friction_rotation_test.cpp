@@ -77,7 +77,7 @@ TEST_P(StickingFriction, TurnsWithTheBodies) {
       return u;
     });
   };
-  contact::ContactState state = pair.history().initial();
+  contact::ContactState state = pair.parts().history.initial();
   std::vector<double> displacement(mesh.x.size() * n, 0.0);
   double time = 0;
   const auto go = [&](const std::vector<double>& to) {
@@ -85,7 +85,7 @@ TEST_P(StickingFriction, TurnsWithTheBodies) {
     pair.update(to);
     // Forces of the phase on both bodies cancel.
     std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes) * n, 0.0);
-    pair.mechanics().add_residual(to, r);
+    pair.parts().forces.term().add_residual(to, r);
     double sum = 0, size = 0;
     for (std::size_t i = 0; i < n; ++i) {
       double s = 0;

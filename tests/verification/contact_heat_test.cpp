@@ -46,7 +46,7 @@ Steady steady(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactPair& p
   options.integration = integration;
   options.tolerance = 1e-12;
   options.solver = linear::SolverKind::direct;
-  heat::ThermalPhase phase(mesh, kind, bars(), ends(mesh), options, {pair.heat()});
+  heat::ThermalPhase phase(mesh, kind, bars(), ends(mesh), options, {pair.parts().heat.term()});
   Steady result{phase.initial_state(std::vector<double>{600, 600}), {}};
   const heat::ThermalState start = result.state;
   result.balance = phase.solve_steady(start, result.state, 1).balance;
@@ -192,7 +192,8 @@ TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
     options.tolerance = 1e-12;
     options.symmetric = false;
     options.integration = nodal ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
-    heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, bars(), ends(mesh), options, {pair.heat()});
+    heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, bars(), ends(mesh), options,
+                             {pair.parts().heat.term()});
     heat::ThermalState state = phase.initial_state(std::vector<double>{600, 600});
     const heat::ThermalReport report = phase.solve_steady(heat::ThermalState(state), state, 1);
     EXPECT_LE(report.newton.iterations, 6) << "quadratic, with the exact tangent";
@@ -255,7 +256,7 @@ void expand(double gap0, double alpha, bool closes) {
   const std::vector<double> cold(mesh.x.size(), 300.0);
   const std::vector<material::Material> materials = bars(alpha);
   mechanics::MechanicalPhase phase(mesh, AnalysisKind::plane_strain, materials, cold, supports,
-                                   test::strict_mechanics(), {&pair.mechanics()});
+                                   test::strict_mechanics(), {&pair.parts().forces.term()});
   mechanics::MechanicalState state = phase.initial_state();
   heat::ThermalState thermal;
   double before = 0, flux = 0;
@@ -270,7 +271,8 @@ void expand(double gap0, double alpha, bool closes) {
   } while (std::abs(flux - before) > 1e-11 * std::abs(flux) && ++passes < 200);
   ASSERT_LT(passes, 200);
 
-  ClosedForm exact{alpha, gap0, pair.forces().penalty(), contact::HeatTransferLaw(*spec.heat)};
+  ClosedForm exact{alpha, gap0, pair.parts().forces.law().normal.penalty,
+                   contact::HeatTransferLaw(*spec.heat)};
   exact.solve();
   EXPECT_EQ(closes, exact.pressure > 0);
   // Opening and pressure are measured against the elongation and the stress that it would take to hold it.

@@ -123,7 +123,7 @@ struct Hertz {
   /// Averages of the pressure at the slave's nodes over their distance from the axis.
   std::vector<std::pair<double, double>> profile() const {
     const contact::ContactNodalFields fields = contact::nodal_fields(run->pair.view(), {});
-    const std::vector<Index> slave = contact::ContactSurface(mesh, run->pair.spec().slave).all_nodes();
+    const std::vector<Index> slave = contact::ContactSurface(mesh, run->pair.parts().spec.slave).all_nodes();
     std::vector<std::pair<double, double>> points;
     for (std::size_t i = 0; i < fields.nodes.size(); ++i)
       if (std::binary_search(slave.begin(), slave.end(), fields.nodes[i]) && fields.pressure[i] >= 0)

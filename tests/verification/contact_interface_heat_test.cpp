@@ -122,7 +122,7 @@ TEST(InterfaceHeat, IsStoredWhereOnlyHeatIsComputed) {
   heat::HeatOptions options;
   options.tolerance = 1e-12;
   heat::ThermalPhase phase(c.mesh, c.kind, c.materials, conditions, options,
-                           std::vector<linear::Contribution*>{pair.heat()});
+                           std::vector<linear::Contribution*>{pair.parts().heat.term()});
   coupling::Phases phases;
   phases.heat = &phase;
   phases.contacts = {&pair};

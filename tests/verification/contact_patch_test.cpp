@@ -63,8 +63,8 @@ Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactParam
   d.turns = static_cast<int>(run.turns.size());
   for (const contact::ContactPointState& point : run.points()) {
     d.pressure = std::max(d.pressure, std::abs(point.pressure / p - 1));
-    d.penetration =
-        std::max(d.penetration, std::abs(point.penetration * run.pair.forces().penalty() / p - 1));
+    d.penetration = std::max(
+        d.penetration, std::abs(point.penetration * run.pair.parts().forces.law().normal.penalty / p - 1));
     d.left = std::max(d.left, std::abs(point.penetration));
   }
   const std::size_t axis = mesh.dimension == 2 ? 1 : 2;
@@ -259,7 +259,8 @@ TEST(ContactPatch, PassesThroughAGapThatTheLoadCloses) {
   test::ContactSteps run(mesh, AnalysisKind::plane_strain, k_materials, test::interface(), conditions);
   run.step(1);
   // In series: 0.1 m of E_1' , the penalty, 0.2 m of E_2', with E' = E/(1 − ν²) in plane strain, free sides.
-  const double e1 = 70e9 / (1 - 0.33 * 0.33), e2 = 210e9 / (1 - 0.09), penalty = run.pair.forces().penalty();
+  const double e1 = 70e9 / (1 - 0.33 * 0.33), e2 = 210e9 / (1 - 0.09),
+               penalty = run.pair.parts().forces.law().normal.penalty;
   const double p = (1e-4 - 2e-5) / (0.1 / e1 + 0.2 / e2 + 1 / penalty);
   for (const contact::ContactPointState& point : run.points()) EXPECT_NEAR(point.pressure, p, 1e-8 * p);
   EXPECT_NEAR(contact::sums(run.pair.view(), {}).energy, 0.3 * 0.5 * p * p / penalty,

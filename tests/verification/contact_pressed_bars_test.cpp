@@ -136,12 +136,13 @@ Trace simulated(contact::Formulation formulation, double dt,
   conditions.pressures.push_back({"upper_y_max", load()});
   const std::vector<double> cold(mesh.x.size(), k_cold);
   mechanics::MechanicsOptions options = test::strict_mechanics();
-  options.symmetric = pair.forces().symmetric();
+  options.symmetric = pair.parts().forces.symmetric();
   mechanics::MechanicalPhase mechanics(mesh, AnalysisKind::plane_strain, materials, cold, conditions, options,
-                                       {&pair.mechanics()});
+                                       {&pair.parts().forces.term()});
   heat::HeatOptions heat_options;
   heat_options.tolerance = 1e-12;
-  heat::ThermalPhase heat(mesh, AnalysisKind::plane_strain, materials, {}, heat_options, {pair.heat()});
+  heat::ThermalPhase heat(mesh, AnalysisKind::plane_strain, materials, {}, heat_options,
+                          {pair.parts().heat.term()});
   coupling::Phases phases;
   phases.heat = &heat;
   phases.mechanics = &mechanics;

@@ -73,12 +73,12 @@ class Rubbing {
         materials(std::move(laws)),
         temperature(mesh.x.size(), 300.0),
         pair(mesh, analysis, std::move(spec)) {
-    options.symmetric = options.symmetric && pair.forces().symmetric();
+    options.symmetric = options.symmetric && pair.parts().forces.symmetric();
     phase = std::make_unique<mechanics::MechanicalPhase>(
         mesh, analysis, materials, temperature, std::move(conditions), options,
-        std::vector<linear::Contribution*>{&pair.mechanics()});
+        std::vector<linear::Contribution*>{&pair.parts().forces.term()});
     state = phase->initial_state();
-    contact = pair.history().initial();
+    contact = pair.parts().history.initial();
     pair.restore(contact, state.displacement, 0);
   }
 
@@ -88,7 +88,7 @@ class Rubbing {
                          .dt = dt,
                          .displacement = state.displacement,
                          .temperature = temperature,
-                         .share = phase->force_share()});
+                         .share = phase->bodies().force_share()});
     mechanics::MechanicalPass pass{.time = time + dt, .dt = dt, .temperature = temperature};
     mechanics::MechanicalState next;
     int iterations = 0;
@@ -96,8 +96,8 @@ class Rubbing {
       report = phase->solve(state, next, pass);
       iterations += report.newton.iterations;
       pair.update(next.displacement);
-      if (pair.excess() <= 1) break;
-      pair.augment();
+      if (pair.parts().augmentations.excess() <= 1) break;
+      pair.parts().augmentations.augment();
       pass.start = next.displacement;
     }
     contact_work = contact::work(pair.view(), 1);
@@ -129,7 +129,7 @@ class Rubbing {
   double integral(const std::function<double(const contact::ContactPointState&)>& f) const {
     double sum = 0;
     for (std::size_t p = 0; p < contact.points.size(); ++p) {
-      const auto particle = pair.geometry().kinematics().particle(static_cast<Index>(p));
+      const auto particle = pair.parts().geometry.kinematics().particle(static_cast<Index>(p));
       if (particle.counted) sum += particle.weight * f(contact.points[p]);
     }
     return parallel::global_sum(sum);
@@ -138,7 +138,7 @@ class Rubbing {
   /// prescribed displacements [J].
   double elastic_energy() {
     std::vector<double> of_contact(report.reactions.size(), 0.0);
-    pair.mechanics().add_residual(state.displacement, of_contact);
+    pair.parts().forces.term().add_residual(state.displacement, of_contact);
     double energy = 0;
     for (std::size_t i = 0; i < of_contact.size(); ++i)
       energy += 0.5 * state.displacement[i] * (report.reactions[i] - of_contact[i]);

@@ -83,15 +83,15 @@ Fit shrink(Shape shape, int n, bool swapped) {
   const std::vector<double> warm = test::nodal_field(
       mesh, 1, [](const mesh::Point&, bool outer) { return std::vector{outer ? 300.0 : 300.0 + k_warmer}; });
   mechanics::MechanicalPhase phase(mesh, kind, materials, cold, symmetry, test::strict_mechanics(),
-                                   {&pair.mechanics()});
+                                   {&pair.parts().forces.term()});
   const mechanics::MechanicalState start = phase.initial_state();
   mechanics::MechanicalState end = start;
   phase.solve(start, end, warm, 1, 1);
   pair.update(end.displacement);
 
-  const double p = exact_pressure(pair.forces().penalty());
+  const double p = exact_pressure(pair.parts().forces.law().normal.penalty);
   Fit fit;
-  fit.coverage = pair.geometry().kinematics().coverage();
+  fit.coverage = pair.parts().geometry.kinematics().coverage();
   const contact::ContactSums sums = contact::sums(pair.view(), {});
   fit.mean_error = std::abs(sums.force / sums.closed_area / p - 1);
   for (double t_n : contact::nodal_fields(pair.view(), {}).pressure)

@@ -16,14 +16,14 @@ namespace solidus::test {
 /// A pair's term, and how many of its points changed between open, sticking and slipping at each residual.
 class WatchedTerm : public linear::Contribution {
  public:
-  explicit WatchedTerm(contact::ContactPair& pair) : pair_(pair), term_(pair.mechanics()) {}
+  explicit WatchedTerm(contact::ContactPair& pair) : pair_(pair), term_(pair.parts().forces.term()) {}
   bool graph_may_change() const override { return term_.graph_may_change(); }
   bool graph_outdated() const override { return term_.graph_outdated(); }
   void add_to_graph(linear::NodeGraph& graph) const override { term_.add_to_graph(graph); }
   void bind(const linear::BlockMatrix& matrix) override { term_.bind(matrix); }
   void add_residual(std::span<const double> x, std::span<double> r) override {
     term_.add_residual(x, r);
-    changes.push_back(pair_.forces().changes());
+    changes.push_back(contact::changes(pair_.parts().forces.term()));
   }
   void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override {
     term_.add_tangent(x, matrix);
@@ -103,7 +103,7 @@ struct ContactSteps {
   }
   const std::vector<contact::ContactPointState>& points() const { return pair.state().points; }
   contact::ContactKinematics::Particle particle(std::size_t point) const {
-    return pair.geometry().kinematics().particle(static_cast<Index>(point));
+    return pair.parts().geometry.kinematics().particle(static_cast<Index>(point));
   }
 
  private:
@@ -114,7 +114,7 @@ struct ContactSteps {
   }
   static mechanics::MechanicsOptions with_symmetry(mechanics::MechanicsOptions options,
                                                    const contact::ContactPair& pair) {
-    options.symmetric = pair.forces().symmetric();
+    options.symmetric = pair.parts().forces.symmetric();
     return options;
   }
 };

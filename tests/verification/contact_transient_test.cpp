@@ -77,7 +77,8 @@ TEST(TwoHalfSpaces, ThatMeetThroughSpotsAndGasEqualiseAsTheClosedFormSays) {
   heat::HeatOptions options;
   options.tolerance = 1e-11;
   options.symmetric = false;
-  heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, materials(0), {}, options, {pair.heat()});
+  heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, materials(0), {}, options,
+                           {pair.parts().heat.term()});
   phases.heat = &phase;
 
   // Without pressure: the two sides keep their conductance but for what the gas feels of their temperature.
@@ -207,10 +208,10 @@ Trace simulated(double dt) {
   supports.displacements.push_back({"upper_y_max", 1, 0.0});
   const std::vector<double> cold(mesh.x.size(), 300.0);
   mechanics::MechanicalPhase mechanics(mesh, AnalysisKind::plane_strain, of_bars, cold, supports,
-                                       test::strict_mechanics(), {&pair.mechanics()});
+                                       test::strict_mechanics(), {&pair.parts().forces.term()});
   heat::ThermalConditions ends;
   ends.temperatures.push_back({"hot", "lower_y_min", k_hot_end});
-  heat::ThermalPhase heat(mesh, AnalysisKind::plane_strain, of_bars, ends, {}, {pair.heat()});
+  heat::ThermalPhase heat(mesh, AnalysisKind::plane_strain, of_bars, ends, {}, {pair.parts().heat.term()});
   coupling::Phases phases;
   phases.heat = &heat;
   phases.mechanics = &mechanics;

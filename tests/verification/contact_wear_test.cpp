@@ -122,7 +122,7 @@ TEST(Wear, OfThePlateStaysWhereItIsWhenThePinIsLiftedOff) {
 
 TEST(Wear, OfARigidMasterIsRefused) {
   test::Rubbing r = make(mesh::Shape::quad4, 1);
-  contact::ContactParameters s = r.pair.spec();
+  contact::ContactParameters s = r.pair.parts().spec;
   s.rigid_master = contact::RigidSurface{};
   EXPECT_THROW(contact::ContactPair(r.mesh, AnalysisKind::plane_strain, s), InputError);
 }

@@ -94,8 +94,8 @@ class Assembly {
       std::vector<double> moduli;
       for (const auto& m : c.materials) moduli.push_back(m.young_modulus.max_value());
       pair_.emplace(c.mesh, c.kind, *c.contact, moduli);
-      mechanical.push_back(&pair_->mechanics());
-      if (pair_->heat() != nullptr) thermal.push_back(pair_->heat());
+      mechanical.push_back(&pair_->parts().forces.term());
+      if (pair_->parts().heat.term() != nullptr) thermal.push_back(pair_->parts().heat.term());
     }
     std::vector<double> initial(c.mesh.x.size());
     for (const mesh::ElementBlock& block : c.mesh.blocks)
@@ -109,7 +109,7 @@ class Assembly {
     mechanics_options.dynamics = c.dynamics;
     mechanics_options.simplices = c.simplices;
     mechanics_options.stabilisation = c.stabilisation;
-    mechanics_options.symmetric = !pair_ || pair_->forces().symmetric();
+    mechanics_options.symmetric = !pair_ || pair_->parts().forces.symmetric();
     mechanics_.emplace(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options, mechanical);
     if (c.form)
       thermal.push_back(
@@ -121,7 +121,7 @@ class Assembly {
     heat_options.stepping = c.stepping;
     heat_options.tolerance = 1e-12;
     heat_options.solver = linear::SolverKind::direct;
-    heat_options.symmetric = !pair_ || pair_->symmetric_heat();
+    heat_options.symmetric = !pair_ || pair_->parts().heat.symmetric();
     heat_.emplace(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
 
     coupling::Phases& phases = phases_;

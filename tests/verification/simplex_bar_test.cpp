@@ -74,7 +74,7 @@ History cool(const Element& element, mechanics::Mapping mapping) {
   History history;
   coupling::State state = assembly.start();
   assembly.scheme().synchronise(state);
-  const auto components = static_cast<std::size_t>(assembly.mechanics().components());
+  const auto components = static_cast<std::size_t>(assembly.mechanics().bodies().components);
   const verification::Cells cells(c.mesh, c.mesh.blocks[0], c.kind);
   for (int n = 1; n <= n_steps; ++n) {
     coupling::State trial;

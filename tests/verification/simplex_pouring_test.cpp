@@ -109,7 +109,7 @@ Pour pour(const Element& element, mechanics::Mapping mapping, const Table& visco
   result.scatter = cells.spread(difference);
   double sinking = 0;
   const std::vector<Index>& surface = c.mesh.surfaces.at("top").nodes;
-  const auto components = static_cast<std::size_t>(assembly.mechanics().components());
+  const auto components = static_cast<std::size_t>(assembly.mechanics().bodies().components);
   for (const Index node : surface)
     sinking += state.mechanics.displacement[static_cast<std::size_t>(node) * components + 1] /
                static_cast<double>(surface.size());

@@ -82,7 +82,7 @@ run::RunResult run_all(const RunArguments& arguments, const setup::Case& c, run:
     summary = *session.summary();
     options.mesh.reset();  // the further runs have others
     displacement_error =
-        setup::displacement_error(c.spec.time, setup::sections_of(c.spec, session.assembly().mesh));
+        setup::displacement_error(c.spec.time, setup::sections_of(c.spec, session.made().assembly.mesh));
   }
   // The further runs differ in some keys alone; all else is as given on the command line.
   const auto load = [&](const std::vector<std::string>& overrides) {

@@ -3,15 +3,12 @@
 /// two patterns of contact.
 #include "contact/forces/augmented_lagrangian.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "contact/points/point_law.hpp"
 #include "parallel/parallel.hpp"
-#include "system/processes.hpp"
 
 namespace solidus::contact {
 
@@ -22,27 +19,6 @@ std::size_t at(Index i) {
 }
 
 }  // namespace
-
-std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& now) const {
-  const mesh::Mesh& mesh = geometry_.mesh();
-  const ContactKinematics& kinematics = geometry_.kinematics();
-  // The mean over the closed points around each node, weighted as they would enter the least squares of a
-  // nodal field that is lumped to its diagonal.
-  std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
-  for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const ContactPointState& point = now.points[at(p)];
-    if (point.status == PointStatus::open) continue;
-    const ContactKinematics::Particle particle = kinematics.particle(p);
-    for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
-      const double w = particle.weight * particle.share[b] * particle.share[b];
-      weight[at(particle.nodes[b])] += w;
-      mean[at(particle.nodes[b])] += w * point.penetration;
-    }
-  }
-  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;
-  parallel::GhostExchange(mesh).update(mean, 1);
-  return mean;
-}
 
 void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   constexpr double k_longest = 30;
@@ -112,7 +88,7 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
   // that pressures stay smooth along a face; by points each one follows its own penetration.
   std::vector<double> penetration;
   if (by_means) {
-    penetration = nodal_penetration(now);
+    penetration = nodal_penetration(geometry_, now);
     accelerate(penetration);
   }
   std::vector<double> step_of_point;
@@ -164,18 +140,9 @@ void AugmentedLagrangian::take_back(ContactStep& step) {
   ended_ = true;
 }
 
-AugmentedLagrangian::Largest AugmentedLagrangian::largest(const ContactState& now) const {
-  Largest found;
-  for (const double g : nodal_penetration(now)) found.penetration = std::max(found.penetration, std::abs(g));
-  for (const ContactPointState& point : now.points) found.pressure = std::max(found.pressure, point.pressure);
-  found.penetration = parallel::global_max(found.penetration);
-  found.pressure = parallel::global_max(found.pressure);
-  return found;
-}
-
 double AugmentedLagrangian::excess(const ContactState& now) const {
   if (!acts()) return 0;
-  const Largest found = largest(now);
+  const Penetration found = largest(now);
   if (!pressure_tolerance_) return found.penetration / allowed_;
   const double allowed = *pressure_tolerance_ * found.pressure / law_.penalty;
   return allowed > 0 ? found.penetration / allowed : 0;
@@ -197,29 +164,6 @@ double AugmentedLagrangian::pressure_error(const ContactState& now) const {
   force = parallel::global_sum(force);
   area = parallel::global_sum(area);
   return force > 0 ? largest(now).penetration * stiffness_ * area / force : 0;
-}
-
-std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {
-  const mesh::Mesh& mesh = geometry_.mesh();
-  const std::vector<double> penetration = nodal_penetration(now);
-  double worst = -1;
-  std::size_t node = 0;
-  // The largest of the own nodes first; the process that has the largest of all writes the text, which the
-  // others receive.
-  for (std::size_t i = 0; i < penetration.size(); ++i) {
-    if (std::abs(penetration[i]) <= worst) continue;
-    worst = std::abs(penetration[i]);
-    node = i;
-  }
-  const int owner = processes::find_largest(worst).rank;
-  std::string text;
-  if (owner == processes::rank() && !penetration.empty()) {
-    const mesh::Point& x = mesh.x[node];
-    text = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh.input_node[node],
-                       x[0], x[1], x[2], penetration[node]);
-  }
-  processes::broadcast(text, owner);
-  return text;
 }
 
 }  // namespace solidus::contact

@@ -27,9 +27,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "contact/forces/penetration.hpp"
 #include "contact/forces/secants.hpp"
 #include "contact/forces/step.hpp"
 #include "contact/interface/normal.hpp"
@@ -43,7 +43,7 @@ enum class AugmentedBy { means, points };
 
 class AugmentedLagrangian {
  public:
-  /// Keeps references.
+  /// Keeps references. Without a law that has multipliers the functions below do nothing.
   /// @param allowed             penetration that may be left [m]
   /// @param face_size           mean size of the slave's faces [m]
   /// @param pressure_tolerance  in place of it, ContactParameters::pressure_tolerance
@@ -56,8 +56,6 @@ class AugmentedLagrangian {
         largest_left_(k_largest_left * face_size),
         pressure_tolerance_(pressure_tolerance),
         stiffness_(stiffness > 0 ? stiffness : law.penalty) {}
-  /// Whether the law has multipliers; without them the functions below do nothing.
-  bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
   /// The augmentations of another step follow.
   /// @param goes_on  of the same step, in a further pass: augmentations that have ended early stay ended
   void begin(bool goes_on = false) {
@@ -81,8 +79,6 @@ class AugmentedLagrangian {
   /// Ends the augmentations of the step with the multipliers of now.
   void end_turns() { ended_ = true; }
   bool ended_early() const { return ended_; }
-  /// The largest mean penetration around a node [m]. Collective.
-  double largest_penetration(const ContactState& now) const { return largest(now).penetration; }
   /// Takes the next augmentation: raises the multipliers of the step's start from the state that this
   /// augmentation has led to, and lets friction set out from the tractions of that state. Collective.
   void augment(const ContactState& now, ContactStep& step, AugmentedBy by);
@@ -92,8 +88,6 @@ class AugmentedLagrangian {
   /// around a node of the slave, taken up by the elements next to the surface, ⟨E/h⟩ ḡ_a over the mean t_N of
   /// the closed points; zero without pressure. The default penalty alone would leave a tenth. Collective.
   double pressure_error(const ContactState& now) const;
-  /// Describes the place of the largest mean penetration, for messages. Collective.
-  std::string worst_penetration(const ContactState& now) const;
 
  private:
   static constexpr double k_largest_left = 1e-3;
@@ -101,13 +95,8 @@ class AugmentedLagrangian {
   void accelerate(const std::vector<double>& penetration);
   /// Returns the steps of the multipliers in an augmentation by points, [point] [Pa]. Collective.
   std::vector<double> step_of_points(const ContactState& now, const ContactStep& step);
-  /// Largest |ḡ_a| [m] and t_N [Pa] of a state. Collective.
-  struct Largest {
-    double penetration = 0, pressure = 0;
-  };
-  Largest largest(const ContactState& now) const;
-  /// Mean penetrations ḡ_a, [local node] [m]. Collective.
-  std::vector<double> nodal_penetration(const ContactState& now) const;
+  bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
+  Penetration largest(const ContactState& now) const { return largest_penetration(geometry_, now); }
 
   const ContactGeometry& geometry_;
   const NormalLaw& law_;

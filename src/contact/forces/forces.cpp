@@ -35,25 +35,24 @@ PointLaw law_of(const ContactParameters& spec, double penalty) {
 ContactForces::ContactForces(const ContactGeometry& geometry, const ContactParameters& spec,
                              const PairSurfaces& surfaces, std::span<const double> body_modulus,
                              const ContactStep& step)
-    : name_(spec.name),
-      step_(step),
+    : step_(step),
       law_(law_of(spec, penalty_of(geometry.mesh(), spec, surfaces, body_modulus))),
       symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
       multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size(),
                    geometry.face_size(), spec.pressure_tolerance,
                    stiffness_of(geometry.mesh(), surfaces, body_modulus)),
-      term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {
+      term_(spec.name, geometry, law_, step, active_, spec.stabilisation,
+            spec.friction && spec.friction->symmetric) {
   term_.follow_weights(!symmetric_);
 }
 
 void ContactForces::activate(bool on) {
   active_ = on;
-  term_.activate(on);
 }
 
 void ContactForces::begin(bool isentropic, double share, bool goes_on) {
   multipliers_.begin(goes_on);
-  term_.begin();
+  term_.stabilisation().hold(1);
   law_.isentropic = isentropic;
   law_.share = share;
 }
@@ -64,37 +63,19 @@ PointForces ContactForces::at(const PointMotion& motion, Index point) const {
                      step_.iterate_of(point));
 }
 
-void ContactForces::augment(const ContactState& now, ContactStep& step, AugmentedBy by) {
-  term_.restart();
-  if (active_) multipliers_.augment(now, step, by);
+GlobalIndex changes(const MechanicsTerm& term) {
+  return std::llround(parallel::global_sum(static_cast<double>(term.outcome().changes)));
 }
 
-void ContactForces::take_back_turn(ContactStep& step) {
-  term_.restart();
-  multipliers_.take_back(step);
-}
-
-double ContactForces::excess(const ContactState& now) const {
-  return active_ ? multipliers_.excess(now) : 0.0;
-}
-
-double ContactForces::pressure_error(const ContactState& now) const {
-  return active_ ? multipliers_.pressure_error(now) : 0.0;
-}
-
-GlobalIndex ContactForces::changes() const {
-  return std::llround(parallel::global_sum(static_cast<double>(term_.changes())));
-}
-
-std::string ContactForces::failure_text() const {
-  const FrictionStatus failure = term_.failure();
+std::string failure_text(const MechanicsTerm& term, const std::string& name) {
+  const FrictionStatus failure = term.outcome().failure;
   if (parallel::any_process(failure != FrictionStatus::converged)) {
     const double worst = parallel::global_max(static_cast<double>(failure));
-    return fmt::format("contact '{}': {}", name_, reason(static_cast<FrictionStatus>(std::lround(worst))));
+    return fmt::format("contact '{}': {}", name, reason(static_cast<FrictionStatus>(std::lround(worst))));
   }
-  const GlobalIndex n = changes();
+  const GlobalIndex n = changes(term);
   if (n == 0) return {};
-  return fmt::format("contact '{}': {} points still change between open, sticking and slipping", name_, n);
+  return fmt::format("contact '{}': {} points still change between open, sticking and slipping", name, n);
 }
 
 }  // namespace solidus::contact

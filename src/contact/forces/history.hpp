@@ -22,7 +22,11 @@ class ContactHistory {
 
   /// The history of bodies that have not moved.
   ContactState initial() const;
-  /// ContactPair::renewed_state().
+  /// The history where bodies of a side are new (a casting of the next shot) and without displacement: points
+  /// of a new slave and nodes of a new master have none; a slave that stays keeps what wears it. Melt fills
+  /// the space between deformed walls: gaps are those of the drawing, whatever the displacement of a meshed
+  /// master or of a slave that stays. Local.
+  /// @param displacement  [local node][component] [m]
   ContactState renewed(const ContactState& old, bool new_slave, bool new_master,
                        std::span<const double> displacement, double time) const;
   /// Makes a state (empty: initial()) the one that a step sets out from.

@@ -49,37 +49,41 @@ struct MechanicsTerm::Run {
 };
 
 MechanicsTerm::MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
-                             const ContactStep& step, double stabilisation, bool symmetric)
+                             const ContactStep& step, const bool& active, double stabilisation,
+                             bool symmetric)
     : name_(std::move(name)),
       n_owned_(geometry.mesh().n_owned_nodes),
-      components_(geometry.components()),
       geometry_(geometry),
       kinematics_(geometry.kinematics()),
-      graph_(geometry.graph()),
       law_(law),
       step_(step),
+      active_(active),
       stabilisation_(stabilisation),
       symmetric_(symmetric),
       status_(at(kinematics_.n_points()), PointStatus::open) {}
 
+void MechanicsTerm::Stabilisation::next() {
+  ++n_tangents_;
+  left_ = std::clamp(std::pow(10.0, k_patient - n_tangents_), k_least_stabilisation, 1.0);
+}
+
 void MechanicsTerm::add_to_graph(linear::NodeGraph& graph) const {
-  version_ = graph_.add_to(graph);
+  version_ = geometry_.graph().add_to(graph);
 }
 
 void MechanicsTerm::bind(const linear::BlockMatrix& matrix) {
   slots_.bind(matrix, n_owned_, kinematics_.n_points());
-  coupled_ = nullptr;  // the places of coupled_slots_ are void too
+  coupled_.matrix = nullptr;  // the places of its slots are void too
 }
 
 void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r) {
   // The counts of changed points and failed laws are those of this residual.
-  changes_ = 0;
-  failure_ = FrictionStatus::converged;
+  outcome_ = {};
   if (!active_) return;
   // Each point that concerns this process is placed at the displacement x, its law answers, and its force
   // goes to the owned nodes.
   geometry_.at(step_.time, x, ContactKinematics::Points::own);
-  const auto n = static_cast<std::size_t>(components_);
+  const auto n = static_cast<std::size_t>(geometry_.components());
   Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
@@ -87,11 +91,11 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(p));
     // Changes of status are counted for the messages of an iteration that does not converge.
-    if (f.status != status_[at(p)] && from.counted) ++changes_;
+    if (f.status != status_[at(p)] && from.counted) ++outcome_.changes;
     status_[at(p)] = f.status;
     count.add(from, motion, f);
-    if (f.friction.status != FrictionStatus::converged && failure_ == FrictionStatus::converged)
-      failure_ = f.friction.status;
+    if (f.friction.status != FrictionStatus::converged && outcome_.failure == FrictionStatus::converged)
+      outcome_.failure = f.friction.status;
     // A law of friction that has found no state makes the residual not a number, so that the step is
     // shortened.
     double pressure = f.normal.balance_pressure;
@@ -117,7 +121,7 @@ void MechanicsTerm::log(const Count& count) const {
       "m, "
       "pressure up to {:.3g} Pa",
       name_, parallel::global_sum(count.closed), parallel::global_sum(count.points),
-      parallel::global_sum(count.sticking), parallel::global_sum(static_cast<double>(changes_)),
+      parallel::global_sum(count.sticking), parallel::global_sum(static_cast<double>(outcome_.changes)),
       parallel::global_max(count.penetration), parallel::global_max(count.pressure));
 }
 
@@ -125,7 +129,7 @@ template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
   const ContactPointState& from = step_.from[at(point)];
   const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(point));
-  if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
+  if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_.none()) return;
   // An open point without stabilisation adds nothing; all others add w (B_b ⊗ dF) for every pair of
   // their nodes.
   const std::size_t n = motion.nodes.size();
@@ -143,7 +147,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
                      f.conductance.by_pressure * f.normal.tangent + f.conductance.by_penetration,
                      f.traction_by_conductance);
   }
-  const double stabilisation = w * hold_ * stabilisation_ * stabilisation_share_ * law_.normal.penalty;
+  const double stabilisation = stabilisation_.of(w) * law_.normal.penalty;
   // Rates by each node: penetration and, with friction, the traction that slip and rotation change.
   for (std::size_t c = 0; c < n; ++c) {
     const Point& g = motion.penetration_rate[c];
@@ -245,11 +249,11 @@ void MechanicsTerm::add_tangents(linear::BlockMatrix& matrix) {
 
 void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
   if (!active_ || step_.coupled.law == nullptr) return;
-  if (coupled_ != &matrix.displacement()) {
-    coupled_ = &matrix.displacement();
-    coupled_slots_.bind(*coupled_, n_owned_, kinematics_.n_points());
+  if (coupled_.matrix != &matrix.displacement()) {
+    coupled_.matrix = &matrix.displacement();
+    coupled_.slots.bind(*coupled_.matrix, n_owned_, kinematics_.n_points());
   }
-  const auto components = static_cast<std::size_t>(components_);
+  const auto components = static_cast<std::size_t>(geometry_.components());
   // At each point that slips the traction changes with the temperature of the interface, and this with the
   // nodal temperatures of both sides.
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
@@ -271,7 +275,7 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     // traction.
     const Point along = scale(1 / norm(f.traction), f.traction);
     const std::size_t n = motion.nodes.size();
-    const auto slots = coupled_slots_.slots(p, motion.nodes);
+    const auto slots = coupled_.slots.slots(p, motion.nodes);
     for (std::size_t row = 0; row < n; ++row) {
       const Point direction = motion.pushed_at(row, along);
       for (std::size_t a = 0; a < n; ++a) {
@@ -287,10 +291,9 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
 
 void MechanicsTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) {
   if (!active_) return;
-  ++n_tangents_;
-  stabilisation_share_ = std::clamp(std::pow(10.0, k_patient - n_tangents_), k_least_stabilisation, 1.0);
+  stabilisation_.next();
   geometry_.at(step_.time, x, ContactKinematics::Points::own);
-  if (components_ == 2)
+  if (geometry_.components() == 2)
     add_tangents<2>(matrix);
   else
     add_tangents<3>(matrix);

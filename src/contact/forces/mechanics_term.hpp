@@ -33,29 +33,49 @@ namespace solidus::contact {
 /// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
 class MechanicsTerm : public linear::Contribution {
  public:
+  /// What its tangents hold beside the derivative of the forces. Forces, and so the solution, do not know it.
+  class Stabilisation {
+   public:
+    /// @param amount  as the pair gives it, a share of the penalty (ContactParameters)
+    explicit Stabilisation(double amount) : amount_(amount) {}
+    /// Another Newton iteration follows.
+    void restart() { n_tangents_ = 0; }
+    /// Another Newton iteration follows, whose tangents hold so many times the amount; so do those after it.
+    void hold(double times) {
+      times_ = times;
+      restart();
+    }
+    /// Another tangent of the iteration.
+    void next();
+    bool none() const { return amount_ == 0; }
+    /// Of a point of this weight, as a share of the penalty, in this tangent.
+    double of(double weight) const { return weight * times_ * amount_ * left_; }
+
+   private:
+    double amount_, left_ = 1, times_ = 1;
+    int n_tangents_ = 0;  ///< of this iteration
+  };
+
+  /// What the last residual has met.
+  struct Outcome {
+    Index changes = 0;  ///< points that changed between open, sticking and slipping since the one before
+    FrictionStatus failure = FrictionStatus::converged;  ///< the first one of the friction law
+  };
+
   /// Keeps references.
-  /// @param name  of the pair, for the log: with level debug every residual leaves a line
+  /// @param name    of the pair, for the log: with level debug every residual leaves a line
+  /// @param active  false: no term at all
   MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
-                const ContactStep& step, double stabilisation, bool symmetric);
-  /// A step begins, with the stabilisation as it is given.
-  void begin() { hold(1); }
-  /// Another Newton iteration follows.
-  void restart() { n_tangents_ = 0; }
-  /// Another Newton iteration follows, whose tangents hold so many times the stabilisation; so do those after
-  /// it, until the next begin().
-  void hold(double times) {
-    hold_ = times;
-    restart();
-  }
+                const ContactStep& step, const bool& active, double stabilisation, bool symmetric);
+  Stabilisation& stabilisation() { return stabilisation_; }
   /// Whether the tangent holds how a point's weight falls where it slides beyond the rim of its master, which
   /// makes it unsymmetric. Else it does not, and iterations with such points converge linearly.
   void follow_weights(bool on) { follows_weights_ = on; }
-  /// Off: no term at all.
-  void activate(bool on) { active_ = on; }
 
-  bool graph_may_change() const override { return graph_.may_change(); }
+  bool graph_may_change() const override { return geometry_.graph().may_change(); }
   bool graph_outdated() const override {
-    return active_ ? graph_.outdated(version_) : graph_.renewed(version_);
+    const ContactGraph& graph = geometry_.graph();
+    return active_ ? graph.outdated(version_) : graph.renewed(version_);
   }
   void add_to_graph(linear::NodeGraph& graph) const override;
   void bind(const linear::BlockMatrix& matrix) override;
@@ -64,11 +84,7 @@ class MechanicsTerm : public linear::Contribution {
   /// Adds ∂r/∂Θ at the displacement of the last call, where friction follows the bodies' temperatures.
   void add_temperature_tangent(linear::CoupledMatrix& matrix);
 
-  /// Number of points that changed between open, sticking and slipping from the last but one residual to the
-  /// last.
-  Index changes() const { return changes_; }
-  /// The first failure of the friction law at the last residual.
-  FrictionStatus failure() const { return failure_; }
+  const Outcome& outcome() const { return outcome_; }
   std::size_t bytes() const { return slots_.bytes() + status_.capacity(); }
 
  private:
@@ -84,23 +100,24 @@ class MechanicsTerm : public linear::Contribution {
 
   std::string name_;
   Index n_owned_;
-  int components_;
   const ContactGeometry& geometry_;
   const ContactKinematics& kinematics_;
-  ContactGraph& graph_;
   const PointLaw& law_;
   const ContactStep& step_;
-  double stabilisation_, stabilisation_share_ = 1, hold_ = 1;
+  const bool& active_;
+  Stabilisation stabilisation_;
   bool symmetric_;
   bool follows_weights_ = false;
-  bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
-  SlotCache slots_, coupled_slots_;
-  const linear::BlockMatrix* coupled_ = nullptr;  ///< that coupled_slots_ know
-  std::vector<PointStatus> status_;               ///< at the last residual
-  Index changes_ = 0;
-  int n_tangents_ = 0;  ///< of this iteration
-  FrictionStatus failure_ = FrictionStatus::converged;
+  SlotCache slots_;
+  /// Of the blocks that couple forces with temperatures.
+  struct CoupledSlots {
+    SlotCache slots;
+    const linear::BlockMatrix* matrix = nullptr;  ///< that they know
+  };
+  CoupledSlots coupled_;
+  std::vector<PointStatus> status_;  ///< at the last residual
+  Outcome outcome_;
 };
 
 }  // namespace solidus::contact

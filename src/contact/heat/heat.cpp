@@ -10,10 +10,6 @@ namespace solidus::contact {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// The nodal form needs shape functions that are nowhere below zero.
 bool is_nodal(const ContactParameters& spec, const PairSurfaces& surfaces) {
   return spec.nodal_heat && surfaces.linear();
@@ -36,7 +32,8 @@ ContactHeat::ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, con
       point_law_(law),
       law_(*spec.heat),
       term_(geometry.mesh(), partners, geometry.graph(), law_, is_nodal(spec, surfaces)) {
-  term_.set_curvature(geometry.curvatures(kind, surfaces.slave), geometry.master_curvatures(kind, surfaces));
+  term_.set_curvature(slave_curvatures(geometry, kind, surfaces.slave),
+                      master_curvatures(geometry.mesh(), kind, surfaces));
 }
 
 void ContactHeat::clear(std::size_t n_points) {
@@ -61,18 +58,12 @@ void ContactHeat::place() {
   points_.clear();
 }
 
-void ContactHeat::restore(const ContactStep& step, std::span<const ContactPointState> now) {
+void ContactHeat::restore(const ContactStep& step, std::span<const ContactPointState> now, bool held) {
+  if (held) predicted_.clear();
   std::vector<HeatPoint> points;
-  for (std::size_t p = 0; p < now.size(); ++p) points.push_back(point(step, step.from[p], now[p], {}));
-  term_.place(std::move(points));
-}
-
-void ContactHeat::hold(const ContactStep& step, std::span<const ContactPointState> now) {
-  predicted_.clear();
-  std::vector<HeatPoint> points;
-  for (const ContactPointState& state : now) {
-    points.push_back(point(step, state, state, {}));
-    points.back().has_temperature = state.temperature > 0;  // it may store what the bodies give
+  for (std::size_t p = 0; p < now.size(); ++p) {
+    points.push_back(point(step, held ? now[p] : step.from[p], now[p], {}));
+    if (held) points.back().has_temperature = now[p].temperature > 0;  // it may store what the bodies give
   }
   term_.place(std::move(points));
 }
@@ -100,10 +91,6 @@ HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& f
   point.step = {step.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
                 forces.friction.dissipation};
   return point;
-}
-
-void ContactHeat::begin_phase(double dt, bool adiabatic) {
-  if (has_temperature()) term_.begin_phase({dt, adiabatic});
 }
 
 void ContactHeat::predict() {
@@ -218,39 +205,6 @@ void ContactHeat::take_slip(std::span<const double> temperature, const ContactSt
       to.traction = scale(slip.traction / size, to.traction);
     contact::take_slip(slip, step.from[p], to);
   }
-}
-
-void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, const ContactStep& step,
-                                           std::span<const ContactPointState> now,
-                                           std::span<const double> temperature,
-                                           linear::CoupledMatrix& matrix) {
-  // Both are scratch of one point that the rates returned refer to until the next call.
-  std::vector<Point> trial, share;
-  const auto rates_of = [&](Index p) -> HeatRates {
-    const ContactPointState& from = step.from[at(p)];
-    // How the pairing changes with displacements: shares, penetration, weight and, where it rubs, the trial
-    // traction, whose size grows with slip and with the traction carried along.
-    const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::rates);
-    if (!motion.partnered) return {};  // of no node of this process
-    const std::size_t n = motion.nodes.size();
-    share.assign(n * n, Point{});
-    kinematics.add_share_rates(p, share);
-    trial.clear();
-    if (point_law_.friction && now[at(p)].status != PointStatus::open) {
-      // The trial traction is T_n carried along plus ε_T times the slip; its size changes along its
-      // own direction.
-      const double spring = point_law_.tangential_penalty(from);
-      const Point whole = add_scaled(motion.carried, spring, motion.slip);
-      const double size = norm(whole);
-      for (std::size_t b = 0; b < n && size > 0; ++b) {
-        trial.push_back(scale(spring / size, transposed_times(motion.slip_rate[b], whole)));
-        if (!motion.carried_rate.empty())
-          trial.back() = add_scaled(trial.back(), 1 / size, transposed_times(motion.carried_rate[b], whole));
-      }
-    }
-    return {motion.penetration_rate, trial, share, motion.weight_rate};
-  };
-  term_.add_displacement_tangent(rates_of, temperature, matrix);
 }
 
 }  // namespace solidus::contact

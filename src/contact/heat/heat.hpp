@@ -11,7 +11,7 @@
 #include "contact/heat/heat_term.hpp"
 #include "contact/points/geometry.hpp"
 #include "contact/points/partners.hpp"
-#include "linear/coupled_matrix.hpp"
+#include "system/pinned.hpp"
 
 namespace solidus::contact {
 
@@ -30,13 +30,11 @@ struct InterfaceSums {
   void add(const InterfaceSums& other, double factor = 1);
 };
 
-class ContactHeat {
+class ContactHeat : Pinned {
  public:
   /// Keeps references. Throws InputError for a law that is none.
   ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, const ContactParameters& spec,
               const PairSurfaces& surfaces, const PointLaw& law, const PartnerList& partners);
-  ContactHeat(const ContactHeat&) = delete;
-  ContactHeat& operator=(const ContactHeat&) = delete;
 
   const HeatTransferLaw& law() const { return law_; }
   HeatTerm& term() { return term_; }
@@ -51,24 +49,17 @@ class ContactHeat {
            const PointForces& forces);
   void place();
   /// The same of a state of which no forces are known: what the last step did is in it.
-  void restore(const ContactStep& step, std::span<const ContactPointState> now);
-  /// The same of bodies that hold their deformation: friction makes no heat, and an interface with a
-  /// temperature may store what they give.
-  void hold(const ContactStep& step, std::span<const ContactPointState> now);
+  /// @param held  of bodies that hold their deformation: friction makes no heat, and an interface with a
+  ///              temperature may store what they give
+  void restore(const ContactStep& step, std::span<const ContactPointState> now, bool held = false);
 
-  /// ContactPair::begin_heat(), predict_heat() and commit_heat(), the last with `now` for the state that gets
-  /// the temperatures and S^p_c found.
-  void begin_phase(double dt, bool adiabatic);
+  /// PairHeat::predict() and commit(), the latter with `now` for the state that gets the temperatures and
+  /// S^p_c found.
   void predict();
   InterfaceSums commit(std::span<const double> temperature, const ContactStep& step,
                        std::vector<ContactPointState>& now);
   /// Forgets predictions and a phase that has not been committed.
   void reset();
-
-  /// Adds ∂r/∂u of the heat at a configuration and the points' state there (ContactPair::add_coupling).
-  void add_displacement_tangent(const ContactKinematics& kinematics, const ContactStep& step,
-                                std::span<const ContactPointState> now, std::span<const double> temperature,
-                                linear::CoupledMatrix& matrix);
 
  private:
   HeatPoint point(const ContactStep& step, const ContactPointState& from, const ContactPointState& now,

@@ -198,27 +198,27 @@ std::vector<double> ContactGeometry::no_displacement() const {
   return std::vector<double>(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
 }
 
-std::vector<SurfaceCurvature> ContactGeometry::curvatures(AnalysisKind kind,
-                                                          const ContactSurface& slave) const {
+std::vector<SurfaceCurvature> slave_curvatures(const ContactGeometry& geometry, AnalysisKind kind,
+                                               const ContactSurface& slave) {
   const std::vector<SurfaceCurvature> of_face =
       surface_curvatures(slave, kind, MeshMasterOptions{}.feature_angle);
   if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
-  std::vector<SurfaceCurvature> of_point(index_of(n_points()));
-  for (Index p = 0; p < n_points(); ++p)
+  std::vector<SurfaceCurvature> of_point(index_of(geometry.n_points()));
+  for (Index p = 0; p < geometry.n_points(); ++p)
     of_point[index_of(p)] =
-        of_face[static_cast<std::size_t>(kinematics_->particle(p).number / k_points_of_a_face)];
+        of_face[static_cast<std::size_t>(geometry.kinematics().particle(p).number / k_points_of_a_face)];
   return of_point;
 }
 
-std::vector<SurfaceCurvature> ContactGeometry::master_curvatures(AnalysisKind kind,
-                                                                 const PairSurfaces& surfaces) const {
+std::vector<SurfaceCurvature> master_curvatures(const mesh::Mesh& mesh, AnalysisKind kind,
+                                                const PairSurfaces& surfaces) {
   if (!surfaces.master) return {};
   const std::vector<SurfaceCurvature> of_face =
       surface_curvatures(*surfaces.master, kind, MeshMasterOptions{}.feature_angle);
   // Plane surfaces need no table at all.
   if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
-  std::vector<SurfaceCurvature> at_node(mesh_.x.size());
-  std::vector<double> faces(mesh_.x.size(), 0.0);
+  std::vector<SurfaceCurvature> at_node(mesh.x.size());
+  std::vector<double> faces(mesh.x.size(), 0.0);
   // At a node the mean of the curvatures of its faces.
   for (Index f = 0; f < surfaces.master->n_faces(); ++f)
     for (const Index node : surfaces.master->nodes(f)) {

@@ -71,11 +71,6 @@ class ContactGeometry {
   /// (facet_heights.hpp). Where the data say what counts as touching, in large sliding, and between surfaces
   /// that are no fit, facets are taken as they are.
   double initial_offset(Index point, double penetration) const;
-  /// The curvature of the slave's face at every point; empty where the surface is plane.
-  std::vector<SurfaceCurvature> curvatures(AnalysisKind kind, const ContactSurface& slave) const;
-  /// Means of the curvatures of the master's faces around its nodes, [local node]; empty where it is plane
-  /// or has no nodes.
-  std::vector<SurfaceCurvature> master_curvatures(AnalysisKind kind, const PairSurfaces& surfaces) const;
 
  private:
   void make_kinematics(AnalysisKind kind, const ContactParameters& spec, const PairSurfaces& surfaces);
@@ -89,5 +84,13 @@ class ContactGeometry {
   std::unique_ptr<ContactGraph> graph_;
   std::vector<Index> surface_nodes_;
 };
+
+/// The curvature of the slave's face at every point; empty where the surface is plane.
+std::vector<SurfaceCurvature> slave_curvatures(const ContactGeometry& geometry, AnalysisKind kind,
+                                               const ContactSurface& slave);
+/// Means of the curvatures of the master's faces around its nodes, [local node]; empty where it is plane or
+/// has no nodes.
+std::vector<SurfaceCurvature> master_curvatures(const mesh::Mesh& mesh, AnalysisKind kind,
+                                                const PairSurfaces& surfaces);
 
 }  // namespace solidus::contact

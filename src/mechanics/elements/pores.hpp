@@ -18,9 +18,9 @@
 /// No element has more pores than k_most_pores: θ(p) ends there. Newton's method is not sent over this second
 /// bend of the curve, from whose flat end it would leap across the first one and back. It solves with θ(p) as
 /// above; elements that then have more than there is are full, θ = k_most_pores whatever the pressure, and it
-/// goes on from there until no further one fills (NodalPressure::fill_pores()). What a full element cannot
-/// take raises the tension in it and around it, so that none of those that have filled leaves the bound
-/// again: the result is that of the curve with both bends.
+/// goes on from there until no further one fills (fill_pores() of nodal_pressure.hpp). What a full element
+/// cannot take raises the tension in it and around it, so that none of those that have filled leaves the
+/// bound again: the result is that of the curve with both bends.
 ///
 /// M = k_pore_share 2Ĝ of the melt, two heads of metal: a pool opens its pores in its upper part first, where
 /// its pressure is least.

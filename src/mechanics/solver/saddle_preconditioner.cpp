@@ -33,7 +33,7 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::Saddl
       multigrid_(mesh, matrix.components(), linear::rigid_body_modes, symmetric, k_coarsest) {
   // Where melt flows the Schur complement is a Laplacian and needs multigrid; elsewhere it is a mass matrix
   // with incomplete factors.
-  const auto fields = static_cast<std::size_t>(pressure.fields());
+  const auto fields = static_cast<std::size_t>(pressure.fields().n_fields);
   const auto& kernels = pressure.kernels();
   if (std::any_of(kernels.begin(), kernels.end(), [](const MixedKernel* kernel) { return kernel->flows(); }))
     for (std::size_t field = 0; field < fields; ++field)
@@ -42,7 +42,7 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::Saddl
     factors_.resize(fields);
   // Each pressure field has a Schur complement of its own, without rows where a node has no pressure of it.
   for (std::size_t field = 0; field < fields; ++field) {
-    schur_.push_back(std::make_unique<linear::BlockMatrix>(mesh, 1, pressure.graph(),
+    schur_.push_back(std::make_unique<linear::BlockMatrix>(mesh, 1, pressure_graph(mesh, pressure),
                                                            linear::BlockMatrix::Storage::upper));
     std::vector<char> absent(mesh.x.size());
     for (std::size_t node = 0; node < absent.size(); ++node)
@@ -79,7 +79,7 @@ void SaddlePreconditioner::find_softness() {
     inverse_softness_[i] = k_augmentation / (scale * softness[i]);
     stiffness_[i] = k_augmentation * volume[i] / softness[i];
   }
-  ghosts_.update(stiffness_, pressure_.fields());
+  ghosts_.update(stiffness_, pressure_.fields().n_fields);
 }
 
 void SaddlePreconditioner::set_up_displacement() {
@@ -110,7 +110,7 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   // answered by multigrid. Ghosts are needed wherever a rectangle of the matrix is applied.
   local_.resize(mesh_.x.size() * fields);
   std::copy(z.begin() + static_cast<std::ptrdiff_t>(n_u), z.end(), local_.begin());
-  ghosts_.update(local_, pressure_.fields());
+  ghosts_.update(local_, pressure_.fields().n_fields);
   part_.resize(n_u);
   matrix_.multiply_gradient(local_, part_);
   const std::vector<char>& prescribed = matrix_.displacement().fixed();

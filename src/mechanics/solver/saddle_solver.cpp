@@ -26,7 +26,7 @@ SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, linear::BlockMatrix& displace
       pressure_(pressure),
       ghosts_(ghosts),
       options_(options),
-      matrix_(displacement, pressure.fields()) {
+      matrix_(displacement, pressure.fields().n_fields) {
   reset();
 }
 
@@ -109,7 +109,7 @@ void SaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
   const std::span<double> of_u = std::span(work_.product).first(n_u),
                           of_p = std::span(work_.product).subspan(n_u);
   matrix_.multiply(work_.local_u, work_.local_p, of_u, of_p);
-  pressure_.add_projection_to(std::span<const double>(work_.whole).subspan(n_u), 1.0, of_p);
+  add_projection(pressure_, std::span<const double>(work_.whole).subspan(n_u), 1.0, of_p);
   unknowns_->restrict_to(work_.product, y);
 }
 
@@ -172,7 +172,8 @@ void SaddleSolver::set_up() {
   if (choice_.direct) {
     // The assembled matrix holds displacements and pressures of the free entries.
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_);
-    outer_.factorised->set(pressure_.orthogonal() ? outer_.matrix->matrix() : assembled, assembled);
+    outer_.factorised->set(pressure_.projection() != nullptr ? outer_.matrix->matrix() : assembled,
+                           assembled);
     factors_.renew();
     return;
   }

@@ -79,7 +79,7 @@ struct MechanicalPass {
   const StructuralLead* lead = nullptr;
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
-  /// Times the stabilisation of contact that its tangents hold (contact::ContactPair::stabilise).
+  /// Times the stabilisation of contact that its tangents hold (contact::MechanicsTerm::Stabilisation).
   double contact_hold = 1;
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   /// The forces whose product with the increment is the work of the pass; null: those at its end. Both passes

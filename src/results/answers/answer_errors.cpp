@@ -129,8 +129,8 @@ std::array<double, 2> ErrorFinder::at(const std::optional<Spot>& spot, std::stri
 void ErrorFinder::of_gap(GapAnswer& answer) const {
   std::vector<char> slave(mesh_.x.size(), 0);
   for (const contact::ContactPair* pair : phases_.contacts) {
-    if (pair->spec().name != answer.contact) continue;
-    const auto surface = mesh_.surfaces.find(pair->spec().slave);
+    if (pair->parts().spec.name != answer.contact) continue;
+    const auto surface = mesh_.surfaces.find(pair->parts().spec.slave);
     if (surface == mesh_.surfaces.end()) continue;
     for (const Index node : surface->second.nodes) slave[static_cast<std::size_t>(node)] = 1;
   }

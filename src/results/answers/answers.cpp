@@ -156,7 +156,7 @@ std::vector<GapAnswer> largest_of_contacts(const mesh::Mesh& mesh, const couplin
                                            const Value& value) {
   std::vector<GapAnswer> found;
   for (std::size_t k = 0; k < phases.contacts.size(); ++k) {
-    const contact::ContactParameters& pair = phases.contacts[k]->spec();
+    const contact::ContactParameters& pair = phases.contacts[k]->parts().spec;
     std::vector<char> nodes(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
     if (const auto slave = mesh.surfaces.find(pair.slave); slave != mesh.surfaces.end())
       for (const Index node : slave->second.nodes)
@@ -276,14 +276,14 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   for (CastAnswer& cast : a.castings) {
     std::vector<char> own(mesh.bodies.size(), 0);
     own[static_cast<std::size_t>(cast.cast.body)] = 1;
-    cast.pores = pores_in(mesh, phases.mechanics->kind(), fields, own);
+    cast.pores = pores_in(mesh, phases.mechanics->bodies().kind, fields, own);
     if (cast.cast.is_part()) parts[static_cast<std::size_t>(cast.cast.body)] = 1;
   }
   // Pores of the whole are those of the parts; risers and gating are cut off and count only where there is no
   // part.
   const bool any_part = std::ranges::find(parts, 1) != parts.end();
   if (!castings.empty())
-    a.pores = pores_in(mesh, phases.mechanics->kind(), fields, any_part ? parts : stressed);
+    a.pores = pores_in(mesh, phases.mechanics->bodies().kind, fields, any_part ? parts : stressed);
   a.gaps = largest_gaps(mesh, phases, fields);
   a.overlaps = deepest_overlaps(mesh, phases, state.heat.temperature);
   // The largest distortion is sought at nodes of castings alone.

@@ -62,7 +62,7 @@ bool on_request(const Quantity& quantity) {
 }
 
 bool rubs(const contact::ContactPair* pair) {
-  return pair->spec().friction.has_value();
+  return pair->parts().spec.friction.has_value();
 }
 
 /// The unit of ζ_c, which is a work per area or a slip; one, as of a number, where pairs differ.
@@ -70,14 +70,14 @@ const char* internal_variable_unit(const coupling::Phases& phases) {
   bool works = false, slips = false;
   for (const contact::ContactPair* pair : phases.contacts) {
     if (!rubs(pair)) continue;
-    const bool slip = pair->spec().friction->internal_variable == contact::InternalVariable::slip;
+    const bool slip = pair->parts().spec.friction->internal_variable == contact::InternalVariable::slip;
     (slip ? slips : works) = true;
   }
   return works && slips ? "1" : slips ? "m" : "N/m";
 }
 
 bool heats(const contact::ContactPair* pair) {
-  return pair->spec().heat.has_value();
+  return pair->parts().spec.heat.has_value();
 }
 
 bool with_heat(const coupling::Phases& phases) {
@@ -86,7 +86,8 @@ bool with_heat(const coupling::Phases& phases) {
 
 /// An interface has a temperature without friction too, where it stores heat.
 bool interfaces_store(const coupling::Phases& phases) {
-  return std::ranges::any_of(phases.contacts, &contact::ContactPair::has_temperature);
+  return std::ranges::any_of(
+      phases.contacts, [](const contact::ContactPair* pair) { return pair->parts().heat.has_temperature(); });
 }
 
 bool with_friction(const coupling::Phases& phases) {
@@ -108,7 +109,7 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   }
   if (phases.mechanics != nullptr) {
     add(of_mechanics::k_displacement);
-    if (phases.mechanics->dynamic()) {
+    if (phases.mechanics->bodies().inertia != nullptr) {
       add(of_mechanics::k_velocity);
       add(of_mechanics::k_acceleration);
     }
@@ -159,8 +160,9 @@ void StateFields::add_contact_fields(std::size_t n_of_phases) {
     add_everywhere(of_contact::k_interface_temperature);
   // Each pair has its two surfaces, which are written as parts of their own.
   for (const contact::ContactPair* pair : phases_.contacts)
-    for (const std::string& surface : {pair->spec().slave, pair->spec().master})
-      if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;
+    for (const std::string& surface : {pair->parts().spec.slave, pair->parts().spec.master})
+      if (surface == pair->parts().spec.slave || !pair->parts().spec.rigid_master)
+        surfaces_[surface] = contact;
 }
 
 void StateFields::find_side_areas(AnalysisKind kind) {
@@ -171,7 +173,8 @@ void StateFields::find_side_areas(AnalysisKind kind) {
     auto& sides = side_area_.emplace_back();
     for (std::size_t side = 0; side < 2; ++side) {
       sides[side].assign(mesh_.x.size(), 0.0);
-      const auto surface = mesh_.surfaces.find(side == 0 ? pair->spec().slave : pair->spec().master);
+      const auto surface =
+          mesh_.surfaces.find(side == 0 ? pair->parts().spec.slave : pair->parts().spec.master);
       if (surface == mesh_.surfaces.end()) continue;  // a rigid one
       for (const mesh::ElementBlock& faces : surface->second.faces) {
         const mesh::FaceGeometry g(mesh_, faces, kind, mesh::gauss_rule(faces.shape, 4));
@@ -209,8 +212,8 @@ std::vector<double>& StateFields::values_of(const quantities::Quantity& quantity
 
 void StateFields::add_elements() {
   for (const auto& [quantity, which] : k_elements) {
-    if (quantity.needs.plasticity && !phases_.mechanics->plastic()) continue;
-    const bool isentropic = phases_.mechanics->mapping() == mechanics::Mapping::isentropic;
+    if (quantity.needs.plasticity && !phases_.mechanics->bodies().plastic) continue;
+    const bool isentropic = phases_.mechanics->bodies().options.mapping == mechanics::Mapping::isentropic;
     if (quantity.needs.isentropic && !isentropic) continue;
     if (quantity.needs.melting && phases_.coherency == nullptr) continue;
     add_values(quantity).compute = [this, field = which] {
@@ -282,7 +285,7 @@ void StateFields::update_criteria(const coupling::State& state) {
 void StateFields::update(const coupling::State& state) {
   // Bodies that are not there in the stage have no values.
   const linear::ActiveSet& there =
-      phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->active();
+      phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->bodies().active;
   const linear::ActiveSet* active = there.complete() ? nullptr : &there;
   bodies_.set_active(active);
   if (phases_.growth != nullptr)
@@ -294,7 +297,7 @@ void StateFields::update(const coupling::State& state) {
   }
   if (phases_.mechanics != nullptr) {
     std::ranges::copy(state.mechanics.displacement, values_of(of_mechanics::k_displacement).begin());
-    if (phases_.mechanics->dynamic()) {
+    if (phases_.mechanics->bodies().inertia != nullptr) {
       std::ranges::copy(state.mechanics.velocity, values_of(of_mechanics::k_velocity).begin());
       std::ranges::copy(state.mechanics.acceleration, values_of(of_mechanics::k_acceleration).begin());
     }
@@ -359,7 +362,7 @@ void StateFields::update_friction(const contact::ContactNodalFields& fields, std
       &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};
   std::vector<double>&traction = values_of(of_contact::k_friction_traction),
   &status = values_of(of_contact::k_contact_status);
-  const auto components = static_cast<std::size_t>(phases_.mechanics->components());
+  const auto components = static_cast<std::size_t>(phases_.mechanics->bodies().components);
   for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(fields.nodes[k]);
     for (std::size_t f = 0; f < remembered.size(); ++f) {

@@ -31,7 +31,7 @@ std::vector<double> moved(const mesh::Mesh& mesh, double shift) {
 /// Force between both bodies while the upper one lies `shift` to the side.
 double force_at(ContactPair& pair, const mesh::Mesh& mesh, double shift) {
   const std::vector<double> u = moved(mesh, shift);
-  const ContactState start = pair.history().initial();
+  const ContactState start = pair.parts().history.initial();
   pair.begin(start, {.time = 1, .dt = 1, .displacement = u});
   pair.update(u);
   return contact::sums(pair.view(), {}).force;
@@ -87,7 +87,7 @@ TEST(FreeBoundary, APointThatIsLeftInPartTakesItsShareOfSlipAndWear) {
       ContactPair pair(mesh, kind, std::move(spec));
       constexpr int k_moves = 60;
       constexpr double k_step = 0.6 * k_width / k_moves;
-      ContactState state = pair.history().initial();
+      ContactState state = pair.parts().history.initial();
       double way_times_force = 0, dissipated = 0, worn = 0;
       for (int i = 1; i <= k_moves; ++i) {
         const std::vector<double> from = moved(mesh, k_step * (i - 1));
@@ -98,7 +98,7 @@ TEST(FreeBoundary, APointThatIsLeftInPartTakesItsShareOfSlipAndWear) {
         dissipated = sums.dissipation;
         way_times_force += k_step * sums.force;
       }
-      const ContactKinematics& kinematics = pair.geometry().kinematics();
+      const ContactKinematics& kinematics = pair.parts().geometry.kinematics();
       for (Index p = 0; p < kinematics.n_points(); ++p)
         if (const auto particle = kinematics.particle(p); particle.counted)
           worn += particle.area * state.points[static_cast<std::size_t>(p)].internal_variable;

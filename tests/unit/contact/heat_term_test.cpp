@@ -102,9 +102,9 @@ TEST(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
           const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
           ContactPair pair(mesh, kind, rubbing(nodal, capacity, of_temperature));
           slide(mesh, pair, warm(mesh));
-          EXPECT_EQ(pair.symmetric_heat(), !of_temperature);
+          EXPECT_EQ(pair.parts().heat.symmetric(), !of_temperature);
           // Steps of 0.01 K: 1e-8 by curvature, 1e-9 by rounding of what is exchanged.
-          EXPECT_LT(tangent_defect(mesh, *pair.heat(), warm(mesh)), 1e-7)
+          EXPECT_LT(tangent_defect(mesh, *pair.parts().heat.term(), warm(mesh)), 1e-7)
               << mesh::name(shape) << nodal << capacity << of_temperature;
         }
 }
@@ -129,7 +129,7 @@ TEST(LimitedExchange, PassesNoHeatFromColdToHotAndLosesNone) {
     for (std::size_t i = 0; i < beyond.size(); ++i)
       if (static_cast<double>(mesh.global_node[i]) == number) beyond[i] = 1, temperature[i] = 710;
     slide(mesh, pair, temperature);
-    linear::Contribution& term = *pair.heat();
+    linear::Contribution& term = *pair.parts().heat.term();
     const auto given_off = [&] {
       std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);
       term.add_residual(temperature, r);
@@ -162,11 +162,11 @@ TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {
         const std::vector<double> temperature = warm(mesh);
         slide(mesh, pair, temperature);
         double heat = 0, size = 0;
-        for (const double q : pair.nodal_heat(temperature)) {
+        for (const double q : pair.parts().heat.nodal(temperature)) {
           heat -= q * k_dt;
           size += std::abs(q) * k_dt;
         }
-        const InterfaceSums sums = pair.commit_heat(temperature);
+        const InterfaceSums sums = pair.parts().heat.commit(temperature);
         EXPECT_GT(sums.dissipated, 0);
         EXPECT_NE(sums.stored, 0) << "hardening stores entropy";
         EXPECT_NEAR(parallel::global_sum(heat), sums.dissipated - sums.stored,
@@ -181,7 +181,7 @@ TEST(FrictionalHeat, RaisesTheInterfaceAboveBothBodies) {
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   const std::vector<double> equal(mesh.x.size(), 400.0);
   slide(mesh, pair, equal);
-  pair.commit_heat(equal);
+  pair.parts().heat.commit(equal);
   for (const ContactPointState& point : pair.state().points) {
     // (h_1 + h_2) (Θ_c − Θ) = D with h_1 = h_2 = 2 h.
     if (point.status == PointStatus::open) continue;

@@ -113,7 +113,7 @@ TEST_P(FrictionForces, HaveTheTangentThatFiniteDifferencesShowWhereTheyStickAndW
     EXPECT_EQ(sums.sticking_points, aside < 1e-4 ? sums.closed_points : 0);
     EXPECT_GT(sums.closed_points, 0);
     // Steps of 1e-9 m of penetrations of 1e-4 m and slips of 1e-3 m: 1e-9 by curvature and by rounding.
-    EXPECT_LT(tangent_defect(mesh, pair->mechanics(), u, 1e-9), 1e-6);
+    EXPECT_LT(tangent_defect(mesh, pair->parts().forces.term(), u, 1e-9), 1e-6);
   }
 }
 
@@ -124,7 +124,7 @@ TEST_P(FrictionForces, AreTheLawsAndBalanceInSum) {
   pair->update(u);
   const auto dim = static_cast<std::size_t>(mesh.dimension);
   std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes) * dim, 0);
-  pair->mechanics().add_residual(u, r);
+  pair->parts().forces.term().add_residual(u, r);
   std::vector<char> is_upper(mesh.x.size(), 0);
   for (Index n : mesh.node_sets.at("upper")) is_upper[static_cast<std::size_t>(n)] = 1;
   Point on_upper{}, all{};
@@ -152,10 +152,10 @@ TEST_P(FrictionForces, HaveASymmetricTangentWhenAskedTo) {
   for (const bool symmetric : {true, false}) {
     s.friction->symmetric = symmetric;
     const auto pair = rubbed(mesh, s);
-    EXPECT_EQ(pair->forces().symmetric(), symmetric);
-    const auto matrix = matrix_of(mesh, pair->mechanics());
+    EXPECT_EQ(pair->parts().forces.symmetric(), symmetric);
+    const auto matrix = matrix_of(mesh, pair->parts().forces.term());
     const std::vector<double> u = pressed(mesh, 2e-3);
-    pair->mechanics().add_tangent(u, *matrix);
+    pair->parts().forces.term().add_tangent(u, *matrix);
     double skew = 0, size = 0;
     const auto at = [](Index i) { return static_cast<std::size_t>(i); };
     for (Index row = 0; row < mesh.n_owned_nodes; ++row)
@@ -192,9 +192,9 @@ TEST(MechanicsTerm, HoldsLessOfAMeltWhoseIterationDoesNotEnd) {
     return std::vector<double>{0.0, upper ? 1e-3 : 0.0};
   });
   const auto held = [&] {
-    const auto matrix = matrix_of(mesh, pair.mechanics());
+    const auto matrix = matrix_of(mesh, pair.parts().forces.term());
     std::vector<double> product(static_cast<std::size_t>(mesh.n_owned_nodes) * 2, 0.0);
-    pair.mechanics().add_tangent(apart, *matrix);
+    pair.parts().forces.term().add_tangent(apart, *matrix);
     matrix->multiply(apart, product);
     double sum = 0;
     for (const double f : product) sum += std::abs(f);

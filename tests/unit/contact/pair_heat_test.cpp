@@ -30,19 +30,19 @@ TEST(InterfaceHeat, HasTheTangentThatFiniteDifferencesShow) {
       ContactPair pair(mesh, kind_of(mesh), s);
       pair.update(rocking(mesh));
       // Linear in the temperature; differences of 1e5 W lose digits to rounding only.
-      EXPECT_LT(tangent_defect(mesh, *pair.heat(), 1, warm(mesh), 1.0), 1e-11);
+      EXPECT_LT(tangent_defect(mesh, *pair.parts().heat.term(), 1, warm(mesh), 1.0), 1e-11);
     }
 }
 
 // The heat of a temperature field that stays, along a displacement that moves every gap.
 double gap_tangent_defect(const mesh::Mesh& mesh, ContactPair& pair, const std::vector<double>& temperature,
                           const std::vector<double>& u, double h) {
-  linear::BlockMatrix of_u = make_matrix(mesh, mesh.dimension, pair.mechanics());
-  linear::BlockMatrix of_t = make_matrix(mesh, 1, *pair.heat());
-  pair.mechanics().bind(of_u);
+  linear::BlockMatrix of_u = make_matrix(mesh, mesh.dimension, pair.parts().forces.term());
+  linear::BlockMatrix of_t = make_matrix(mesh, 1, *pair.parts().heat.term());
+  pair.parts().forces.term().bind(of_u);
   linear::CoupledMatrix matrix(mesh, of_u, of_t);
   pair.update(u);
-  pair.add_coupling(temperature, matrix);
+  pair.parts().heat.add_coupling(temperature, matrix);
   std::vector<double> d(u.size());
   for (std::size_t i = 0; i < d.size(); ++i) {
     const Point& p = mesh.x[i / static_cast<std::size_t>(mesh.dimension)];
@@ -55,7 +55,7 @@ double gap_tangent_defect(const mesh::Mesh& mesh, ContactPair& pair, const std::
     std::vector<double> x = u;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += sign * h * d[i];
     pair.update(x);
-    const std::vector<double> heat = pair.nodal_heat(temperature);
+    const std::vector<double> heat = pair.parts().heat.nodal(temperature);
     for (std::size_t i = 0; i < n; ++i) difference[i] += sign * heat[i] / (2 * h);
   }
   double defect = 0, size = 0;
@@ -95,7 +95,7 @@ TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   // Where both sides have one temperature the two derivatives, 4σΘ³ and −4σΘ³, are the tangent's.
   const std::vector<double> equal(mesh.x.size(), 800.0);
-  EXPECT_LT(tangent_defect(mesh, *pair.heat(), 1, equal, 1e-2), 1e-8);
+  EXPECT_LT(tangent_defect(mesh, *pair.parts().heat.term(), 1, equal, 1e-2), 1e-8);
   // And the heat is that of the law, not of its linearisation.
   const auto hot_and_cold = test::nodal_field(
       mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 400.0 : 1000.0}; });
@@ -122,16 +122,16 @@ TEST(InterfaceHeat, PassesThroughTheGapsThatItIsTold) {
   pair.update(lifted(80e-6));
   const double of_the_middle = heat();
   pair.update(lifted(40e-6));
-  const std::vector<HeatGap> start = pair.heat_gaps();
+  const std::vector<HeatGap> start = pair.parts().gaps.now();
   const double of_the_start = heat();
   pair.update(lifted(120e-6));
-  const std::vector<HeatGap> mean = middle(start, pair.heat_gaps());
-  pair.conduct_through(mean);
+  const std::vector<HeatGap> mean = middle(start, pair.parts().gaps.now());
+  pair.parts().gaps.use(mean);
   EXPECT_NEAR(heat(), of_the_middle, 1e-12 * of_the_middle);
-  const GapHeat misplaced = pair.gap_heat(start, mean, temperature);
+  const GapHeat misplaced = pair.parts().gaps.heat(start, mean, temperature);
   EXPECT_NEAR(misplaced.passed, of_the_start, 1e-12 * of_the_start);
   EXPECT_NEAR(misplaced.misplaced, of_the_start - of_the_middle, 1e-12 * of_the_start);
-  EXPECT_EQ(pair.gap_heat(mean, mean, temperature).misplaced, 0);
+  EXPECT_EQ(pair.parts().gaps.heat(mean, mean, temperature).misplaced, 0);
 }
 
 // Seen from 40 µm, a gap that widens to 120 µm will have these, one that closes is closed; points that carry
@@ -155,18 +155,18 @@ TEST(InterfaceHeat, SeesTheGapsOfALaterDisplacement) {
     }
   };
   pair.update(lifted(120e-6));
-  const std::vector<HeatGap> wide = pair.heat_gaps();
+  const std::vector<HeatGap> wide = pair.parts().gaps.now();
   pair.update(lifted(40e-6));
-  const std::vector<HeatGap> now = pair.heat_gaps();
-  same(pair.heat_gaps_ahead(lifted(120e-6), 1), wide);
-  for (const HeatGap& gap : pair.heat_gaps_ahead(lifted(-10e-6), 1)) {
+  const std::vector<HeatGap> now = pair.parts().gaps.now();
+  same(pair.parts().gaps.ahead(lifted(120e-6), 1), wide);
+  for (const HeatGap& gap : pair.parts().gaps.ahead(lifted(-10e-6), 1)) {
     EXPECT_EQ(gap.penetration, 0);
     EXPECT_EQ(gap.pressure, 0);
   }
-  same(pair.heat_gaps(), now);
+  same(pair.parts().gaps.now(), now);
   pair.update(lifted(-10e-6));
-  const std::vector<HeatGap> pressed = pair.heat_gaps();
-  same(pair.heat_gaps_ahead(lifted(120e-6), 1), pressed);
+  const std::vector<HeatGap> pressed = pair.parts().gaps.now();
+  same(pair.parts().gaps.ahead(lifted(120e-6), 1), pressed);
 }
 
 TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
@@ -181,7 +181,7 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
       ContactPair pair(mesh, kind_of(mesh), s);
       pair.update(rocking(mesh));
       const std::vector<double> temperature = warm(mesh);
-      const std::vector<double> heat = pair.nodal_heat(temperature);
+      const std::vector<double> heat = pair.parts().heat.nodal(temperature);
       std::vector<char> is_upper(mesh.x.size(), 0);
       for (Index n : mesh.node_sets.at("upper")) is_upper[static_cast<std::size_t>(n)] = 1;
       double out = 0, in = 0;
@@ -208,7 +208,7 @@ TEST(InterfaceHeat, LeavesWhatIsHotterThanAllAroundItWhateverTheShapeAndTheGaps)
     for (std::size_t hot = 0; hot < n_owned; ++hot) {
       std::vector<double> temperature(mesh.x.size(), 600.0);
       temperature[hot] = 700;
-      const std::vector<double> heat = pair.nodal_heat(temperature);
+      const std::vector<double> heat = pair.parts().heat.nodal(temperature);
       double size = 0;
       for (const double q : heat) size = std::max(size, std::abs(q));
       EXPECT_GE(heat[hot], -1e-12 * size) << mesh::name(shape) << ", node " << hot;
@@ -258,13 +258,13 @@ TEST(InterfaceHeat, InNodalFormKeepsTheMatrixOfNonNegativeTypeForLinearShapes) {
     ContactParameters s = spec();
     s.heat = heat_spec();
     ContactPair pair(mesh, kind_of(mesh), s);
-    auto matrix = make_matrix(mesh, 1, *pair.heat());
-    pair.heat()->bind(matrix);
-    pair.heat()->add_tangent(warm(mesh), matrix);
+    auto matrix = make_matrix(mesh, 1, *pair.parts().heat.term());
+    pair.parts().heat.term()->bind(matrix);
+    pair.parts().heat.term()->add_tangent(warm(mesh), matrix);
     double largest = 0;
-    for (Index p = 0; p < pair.partners().n_points(); ++p)
-      for (const Index row : pair.partners().nodes_of(p))
-        for (const Index column : pair.partners().nodes_of(p)) {
+    for (Index p = 0; p < pair.parts().partners.n_points(); ++p)
+      for (const Index row : pair.parts().partners.nodes_of(p))
+        for (const Index column : pair.parts().partners.nodes_of(p)) {
           if (row != column && row < mesh.n_owned_nodes)
             largest = std::max(largest, *matrix.block(matrix.slot(row, column)));
         }

@@ -26,7 +26,7 @@ TEST(ContactForces, HaveTheTangentThatFiniteDifferencesShow) {
       EXPECT_GT(sums.closed_points, 0);
       EXPECT_LT(sums.closed_points, sums.points);
       // Piecewise linear in u: the difference is exact but for rounding unless a point changes its state.
-      EXPECT_LT(tangent_defect(mesh, pair.mechanics(), mesh.dimension, u, 1e-10), 1e-5);
+      EXPECT_LT(tangent_defect(mesh, pair.parts().forces.term(), mesh.dimension, u, 1e-10), 1e-5);
     }
 }
 
@@ -38,7 +38,7 @@ TEST(ContactForces, BalanceBetweenTheBodiesInSumAndMoment) {
     ContactPair pair(mesh, kind, spec());
     const auto dim = static_cast<std::size_t>(mesh.dimension);
     std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes) * dim, 0);
-    pair.mechanics().add_residual(rocking(mesh, -1e-3), r);
+    pair.parts().forces.term().add_residual(rocking(mesh, -1e-3), r);
     std::array<double, 3> force{}, moment{};
     double size = 0;
     for (std::size_t n = 0; n < static_cast<std::size_t>(mesh.n_owned_nodes); ++n) {
@@ -65,10 +65,10 @@ TEST(ContactForces, OfBodiesThatJustTouchAreZeroWithAStiffTangent) {
   ContactPair pair(mesh, AnalysisKind::plane_strain, spec());
   EXPECT_EQ(contact::sums(pair.view(), {}).closed_points, contact::sums(pair.view(), {}).points);
   EXPECT_EQ(contact::sums(pair.view(), {}).force, 0);
-  auto matrix = make_matrix(mesh, 2, pair.mechanics());
-  pair.mechanics().bind(matrix);
+  auto matrix = make_matrix(mesh, 2, pair.parts().forces.term());
+  pair.parts().forces.term().bind(matrix);
   const std::vector<double> u(mesh.x.size() * 2, 0.0);
-  pair.mechanics().add_tangent(u, matrix);
+  pair.parts().forces.term().add_tangent(u, matrix);
   // The work of a rigid approach v is ½ v K v = ½ ε_N A v².
   const auto v = test::nodal_field(mesh, 2, [](const Point&, bool upper) {
     return std::vector<double>{0, upper ? -1.0 : 0.0};
@@ -137,7 +137,7 @@ TEST(Pair, BeginsFromTheStateAtTheStartWhereverItStands) {
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   const std::vector<double> rest = lowered(0);
   const ContactPass pass{.time = 1, .dt = 1, .displacement = rest, .temperature = temperature};
-  const ContactState start = pair.history().initial();
+  const ContactState start = pair.parts().history.initial();
   pair.begin(start, pass);
   pair.update(lowered(0.0101));  // from out of reach into contact
   const ContactState once = pair.state();
@@ -189,7 +189,8 @@ TEST(PenaltyFactor, IsTimesTheMeanStiffnessOfTheElementsAtTheStifferSurface) {
     s.penalty = 20;
     s.penalty_is_factor = true;
     const ContactPair pair(mesh, kind_of(mesh), s, modulus);
-    EXPECT_NEAR(pair.forces().penalty(), 20 * 210e9 / 0.1, 1e-9 * pair.forces().penalty());
+    EXPECT_NEAR(pair.parts().forces.law().normal.penalty, 20 * 210e9 / 0.1,
+                1e-9 * pair.parts().forces.law().normal.penalty);
   }
 }
 

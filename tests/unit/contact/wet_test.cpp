@@ -56,7 +56,7 @@ struct OneStep {
   ContactState state;
 
   OneStep(const mesh::Mesh& m, ContactParameters s) : mesh(m), pair(m, kind_of(m), std::move(s)) {
-    state = pair.history().initial();
+    state = pair.parts().history.initial();
   }
   /// A step from the state so far to a displacement.
   ContactSums step(const std::vector<double>& displacement, const std::vector<double>& coherent) {
@@ -110,7 +110,7 @@ TEST_P(Wet, PullsOnBothBodiesAlike) {
   run.step(u, liquid());
   const auto dim = static_cast<std::size_t>(mesh_.dimension);
   std::vector<double> r(static_cast<std::size_t>(mesh_.n_owned_nodes) * dim, 0.0);
-  run.pair.mechanics().add_residual(u, r);
+  run.pair.parts().forces.term().add_residual(u, r);
   double sum = 0, size = 0;
   for (std::size_t i = dim - 1; i < r.size(); i += dim) {
     sum += r[i];
@@ -126,7 +126,7 @@ TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
   run.step(lifted(mesh_, 0), liquid());
   run.pair.begin(run.state, {.time = 2, .dt = 1, .displacement = u, .solidity = {liquid()}});
   linear::NodeGraph graph(mesh_);
-  linear::Contribution& term = run.pair.mechanics();
+  linear::Contribution& term = run.pair.parts().forces.term();
   term.add_to_graph(graph);
   linear::BlockMatrix matrix(mesh_, mesh_.dimension, std::move(graph));
   term.bind(matrix);
@@ -359,7 +359,7 @@ TEST(WetContact, MultipliersHoldTensionDownToTheAtmosphere) {
     run.pair.update(u);
     const double expected = -std::min(0.3 * turn, 1.0) * k_atmosphere * 0.3;
     EXPECT_NEAR(contact::sums(run.pair.view(), {}).force, expected, 1e-9 * k_atmosphere) << turn;
-    run.pair.augment();
+    run.pair.parts().augmentations.augment();
   }
   run.state = run.pair.state();
   const ContactSums dry = run.step(u, coherency(mesh, 1.1, 1));

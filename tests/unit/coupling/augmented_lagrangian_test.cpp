@@ -39,7 +39,7 @@ TEST(AugmentedLagrangian, AcceptsAfterSixtyTurnsWhatIsTenTimesTooLargeAndSaysSo)
     look(run);
   };
   double excess = 0;
-  check(1e-6, [&](const Rubbed& run) { excess = run.pair.excess(); });
+  check(1e-6, [&](const Rubbed& run) { excess = run.pair.parts().augmentations.excess(); });
   ASSERT_GT(excess, 0);
   logging::clear_warnings();
   check(1e-6 * excess / 5, [](Rubbed& run) {
@@ -136,7 +136,7 @@ TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenal
   Rubbed& run = *blocks.run;
   ASSERT_FALSE(coupling::penetrations_small(run.phases, 60));
   blocks.solve();
-  EXPECT_LT(run.pair.pressure_error(), 0.1);
+  EXPECT_LT(run.pair.parts().augmentations.pressure_error(), 0.1);
   logging::clear_warnings();
   EXPECT_FALSE(coupling::penetrations_small(run.phases, 199));
   blocks.solve();
@@ -147,23 +147,23 @@ TEST(AugmentedLagrangian, IsTakenAsItIsAfterTwoHundredTurnsUnlessTheDefaultPenal
 
   // Apart, with the pressures of multipliers that know nothing of it.
   run.pair.update(moved(blocks, 0.8 * blocks.largest(&contact::ContactPointState::pressure) / 1e13));
-  ASSERT_GT(run.pair.pressure_error(), 0.1);
+  ASSERT_GT(run.pair.parts().augmentations.pressure_error(), 0.1);
   EXPECT_THROW(coupling::penetrations_small(run.phases, 200), StepRejected);
 }
 
 TEST(AugmentedLagrangian, EndsAfterSixtyTurnsWhereShorterStepsHaveFailedAndSaysSo) {
   PressedBlocks blocks;
   Rubbed& run = *blocks.run;
-  ASSERT_GT(run.pair.excess(), 10);
-  run.pair.allow_early_end(true);
+  ASSERT_GT(run.pair.parts().augmentations.excess(), 10);
+  run.pair.parts().augmentations.allow_early_end(true);
   logging::clear_warnings();
   EXPECT_FALSE(coupling::penetrations_small(run.phases, 59));
   blocks.solve();
-  ASSERT_GT(run.pair.excess(), 10);
-  EXPECT_EQ(run.pair.left_penetration(), 0);
+  ASSERT_GT(run.pair.parts().augmentations.excess(), 10);
+  EXPECT_EQ(run.pair.parts().augmentations.left_penetration(), 0);
   EXPECT_TRUE(logging::warnings().empty());
   EXPECT_TRUE(coupling::penetrations_small(run.phases, 60));
-  EXPECT_GT(run.pair.left_penetration(), 0);
+  EXPECT_GT(run.pair.parts().augmentations.left_penetration(), 0);
   ASSERT_EQ(logging::warnings().size(), 1);
   EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("end at their last equilibrium"));
   // A further pass of the step does not raise them again, and the next step begins again.
@@ -174,15 +174,15 @@ TEST(AugmentedLagrangian, EndsAfterSixtyTurnsWhereShorterStepsHaveFailedAndSaysS
   // A scheme that iterates gives its first pass the state at t_n.
   coupling::begin_contacts(run.phases, run.state.contacts, blocks.old, blocks.pass, {}, now);
   run.pair.update(blocks.next.displacement);
-  EXPECT_EQ(run.pair.left_penetration(), 0);
+  EXPECT_EQ(run.pair.parts().augmentations.left_penetration(), 0);
   EXPECT_FALSE(coupling::penetrations_small(run.phases, 1));
 }
 
 TEST(AugmentedLagrangian, DoesNotEndEarlyWithPenetrationsThatBodiesWouldFeel) {
   PressedBlocks blocks;
   Rubbed& run = *blocks.run;
-  run.pair.allow_early_end(true);
-  const double face = run.pair.geometry().face_size();
+  run.pair.parts().augmentations.allow_early_end(true);
+  const double face = run.pair.parts().geometry.face_size();
   run.pair.update(moved(blocks, -2e-3 * face));
   EXPECT_FALSE(coupling::penetrations_small(run.phases, 60));
   EXPECT_FALSE(coupling::restore_multipliers(run.phases));
@@ -192,7 +192,7 @@ TEST(AugmentedLagrangian, TakesBackATurnWithoutEquilibriumWhereShorterStepsHaveF
   for (const bool allowed : {false, true}) {
     PressedBlocks blocks;
     Rubbed& run = *blocks.run;
-    run.pair.allow_early_end(allowed);
+    run.pair.parts().augmentations.allow_early_end(allowed);
     const std::vector<contact::ContactPointState> before = run.pair.state().points;
     EXPECT_FALSE(coupling::restore_multipliers(run.phases)) << "there was no augmentation";
     ASSERT_FALSE(coupling::penetrations_small(run.phases, 1));
@@ -204,7 +204,7 @@ TEST(AugmentedLagrangian, TakesBackATurnWithoutEquilibriumWhereShorterStepsHaveF
       EXPECT_EQ(run.pair.state().points[p].multiplier, before[p].multiplier);
     }
     EXPECT_TRUE(coupling::penetrations_small(run.phases, 2));
-    EXPECT_GT(run.pair.left_penetration(), 0);
+    EXPECT_GT(run.pair.parts().augmentations.left_penetration(), 0);
     EXPECT_FALSE(coupling::restore_multipliers(run.phases)) << "once in a step";
   }
 }
@@ -267,7 +267,7 @@ TEST(AugmentedLagrangian, SettlesInPassesOfOneIterationAsInPassesToEquilibrium) 
   EXPECT_GE(iterations, 2) << "of the augmentations in which the multipliers grew";
   EXPECT_TRUE(take());
   EXPECT_LE(iterations, 1) << "what was found is the start of the next pass";
-  EXPECT_LE(single.pair.excess(), 1);
+  EXPECT_LE(single.pair.parts().augmentations.excess(), 1);
   for (std::size_t i = 0; i < trial.contacts[0].points.size(); ++i)
     EXPECT_NEAR(trial.contacts[0].points[i].multiplier, whole.state.contacts[0].points[i].multiplier, 1e3);
   for (std::size_t i = 0; i < trial.mechanics.displacement.size(); ++i)

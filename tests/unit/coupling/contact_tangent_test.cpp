@@ -46,10 +46,10 @@ TEST(CoupledTangentOfContact, StaysExactInAMatrixWithANewPattern) {
   };
   iterate.move(moved(0));
   expect_exact(iterate, mesh, k_rounding);
-  const int pattern = b.mechanics->matrix().pattern();
+  const int pattern = b.mechanics->system().matrix().pattern();
   // Points on the left keep their partners, those on the right leave them by 90 mm for others.
   iterate.move(moved(0.3));
-  EXPECT_GT(b.mechanics->matrix().pattern(), pattern);
+  EXPECT_GT(b.mechanics->system().matrix().pattern(), pattern);
   expect_exact(iterate, mesh, 5 * k_rounding);  // forces of a strain of 0.3 round too
 }
 
@@ -75,8 +75,8 @@ TEST(CoupledTangentOfContact, HasRoomForTheNodesOfAveragedNormals) {
     test::Iterate iterate(b);
     iterate.move(test::rubbed(b.mesh));
     std::size_t most = 0;
-    for (Index p = 0; p < b.pair->partners().n_points(); ++p)
-      most = std::max(most, b.pair->partners().nodes_of(p).size());
+    for (Index p = 0; p < b.pair->parts().partners.n_points(); ++p)
+      most = std::max(most, b.pair->parts().partners.nodes_of(p).size());
     EXPECT_GT(parallel::global_max(static_cast<double>(most)), 2 * contact::k_max_face_nodes);
     expect_exact(iterate, b.mesh, k_rounding);
   }
@@ -91,7 +91,7 @@ TEST(CoupledTangentOfContact, StaysExactWhereAMultiplierPressesPointsWithAGap) {
     test::Iterate iterate(b);
     std::vector<double> u = test::rubbed(b.mesh);
     iterate.move(u);
-    b.pair->augment(contact::AugmentedBy::means);
+    b.pair->parts().augmentations.augment(contact::AugmentedBy::means);
     const std::vector<double> lifted =
         test::nodal_field(b.mesh, b.mesh.dimension, [&](const mesh::Point&, bool upper) {
           return std::vector<double>{0.0, upper ? 3e-6 : 0.0};
@@ -126,14 +126,14 @@ TEST(CoupledTangentOfContact, KnowsThatPointsBeyondTheRimWeighLess) {
       for (std::size_t i = 0; i < u.size(); ++i) u[i] += to_the_left[i];
       iterate.move(u);
       double least = 1;
-      const contact::ContactKinematics& kinematics = b.pair->geometry().kinematics();
+      const contact::ContactKinematics& kinematics = b.pair->parts().geometry.kinematics();
       const auto* sliding = dynamic_cast<const contact::SlidingKinematics*>(&kinematics);
       ASSERT_NE(sliding, nullptr);
       for (const contact::Partner& met : sliding->points().table().partner)
         if (met.face >= 0) least = std::min(least, met.covered);
       EXPECT_LT(parallel::global_min(least), 0.7);
       expect_exact(iterate, b.mesh, 5 * k_rounding);
-      b.pair->follow_weights(false);
+      b.pair->parts().forces.term().follow_weights(false);
       const auto error =
           iterate.tangent_errors(noise(b.mesh, b.mesh.dimension, 2.1, 1e-7), noise(b.mesh, 1, 1.9, 0), 4e-3);
       EXPECT_GT(error.force, 10 * k_rounding) << "what the tangent lacks without";

@@ -167,7 +167,7 @@ WorkOnContact dynamic_step(Rubbed& run, double dt) {
   run.state.time = pass.time;
   return {work.external_work + work.support_work + work.residual_work - work.internal_work - work.kinetic -
               work.numerical,
-          contact::work(run.pair.view(), run.phase.work_share())};
+          contact::work(run.pair.view(), run.phase.bodies().work_share())};
 }
 
 const mechanics::Motion k_means[] = {mechanics::Motion::trapezoidal(),
@@ -220,10 +220,10 @@ TEST(LargeSliding, GivesMatricesNewPlacesInTheMiddleOfARun) {
   mechanics::MechanicalConditions c = pulled();
   Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
   run.step(1);
-  const int pattern = run.phase.matrix().pattern();
+  const int pattern = run.phase.system().matrix().pattern();
   // 100 mm at once, over a face of the master of the same length and two of the slave.
   run.step(5);
-  EXPECT_GT(run.phase.matrix().pattern(), pattern);
+  EXPECT_GT(run.phase.system().matrix().pattern(), pattern);
   const contact::ContactSums sums = contact::sums(run.pair.view(), {});
   EXPECT_NEAR(sums.resultant[1], 20e6 * 0.3, 1e-9 * sums.force);
   EXPECT_NEAR(sums.friction, 0.2 * sums.force, 1e-9 * sums.force);

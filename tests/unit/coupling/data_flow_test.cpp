@@ -8,6 +8,7 @@
 #include "answers.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/elements/block_kernel.hpp"
+#include "mechanics/mechanical_restart.hpp"
 #include "rubbing_interface.hpp"
 
 namespace solidus {
@@ -92,7 +93,7 @@ TEST_P(MechanicalDataFlow, APassIsAFunctionOfItsArguments) {
   const Solution other = solve(pass(3, hot));
   EXPECT_NE(answers(other).at("displacement"), once.at("displacement"));
   EXPECT_NE(answers(other).at("heat of deformation, energy"), once.at("heat of deformation, energy"));
-  phase_->held_deformation(old_, hot);
+  mechanics::held_deformation(*phase_, old_, hot);
   test::expect_same(answers(first), once, "handed out before", false);
   test::expect_same(answers(solve(pass(2, warm))), once, "solved again");
 }
@@ -104,7 +105,7 @@ TEST_P(MechanicalDataFlow, TheReturnMappingOfTheThermalPhaseGoesOnFromWhatItIsGi
   const Answers before = answers(solved);
   const auto restart = [&](Solution s) {
     const mechanics::FlowChange change =
-        phase_->restart_flow(old_, pass(2, warm), end, s.state, s.report.deformation);
+        mechanics::restart_flow(*phase_, old_, pass(2, warm), end, s.state, s.report.deformation);
     EXPECT_TRUE(change.flows);
     Answers a = answers(s);
     a["change"] = {change.work.dissipation, change.work.plastic_work, change.work.inelastic_entropy};
@@ -194,10 +195,10 @@ TEST(ContactDataFlow, AnUpdateIsAFunctionOfTheStartOfTheStepAndTheDisplacement) 
     Answers a;
     const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
     a["forces"].assign(2 * n, 0.0);
-    pair.mechanics().add_residual(u, a["forces"]);
-    pair.begin_heat(time - 1, false);
-    a["heat at nodes"] = pair.nodal_heat(warm);
-    const contact::InterfaceSums heat = pair.commit_heat(warm);
+    pair.parts().forces.term().add_residual(u, a["forces"]);
+    pair.parts().heat.begin(time - 1, false);
+    a["heat at nodes"] = pair.parts().heat.nodal(warm);
+    const contact::InterfaceSums heat = pair.parts().heat.commit(warm);
     a["interface"] = {heat.energy, heat.entropy, heat.plastic_entropy, heat.mechanical_energy};
     test::add({pair.state()}, a);
     const contact::ContactSums sums = contact::sums(pair.view(), warm);

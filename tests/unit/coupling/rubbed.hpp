@@ -21,14 +21,14 @@ struct Rubbed {
       : materials{elastic(70e9, 0.3), elastic(70e9, 0.3)},
         pair(mesh, kind, spec, std::vector<double>{70e9, 70e9}),
         phase(mesh, kind, materials, std::vector<double>(mesh.x.size(), 300.0), conditions,
-              for_pair(std::move(options), pair), {&pair.mechanics()}),
+              for_pair(std::move(options), pair), {&pair.parts().forces.term()}),
         phases{.mechanics = &phase,
                .contacts = {&pair},
                .temperature = std::vector<double>(mesh.x.size(), 300.0),
                .ambient_temperature = {}},
         scheme(phases) {
     state.mechanics = phase.initial_state();
-    state.contacts = {pair.history().initial()};
+    state.contacts = {pair.parts().history.initial()};
   }
   Rubbed(const Rubbed&) = delete;
 
@@ -44,7 +44,7 @@ struct Rubbed {
  private:
   static mechanics::MechanicsOptions for_pair(mechanics::MechanicsOptions options,
                                               const contact::ContactPair& pair) {
-    options.symmetric = pair.forces().symmetric();
+    options.symmetric = pair.parts().forces.symmetric();
     return options;
   }
 };

@@ -119,23 +119,23 @@ struct RubbingBlocks {
       conditions.displacements.push_back({top, up, Table({0, 1}, {0, -4e-5})});
     }
     const std::vector<double> initial(mesh.x.size(), k_rubbing_start);
-    mechanics =
-        std::make_unique<mechanics::MechanicalPhase>(mesh, kind, materials, initial, conditions, options,
-                                                     std::vector<linear::Contribution*>{&pair->mechanics()});
+    mechanics = std::make_unique<mechanics::MechanicalPhase>(
+        mesh, kind, materials, initial, conditions, options,
+        std::vector<linear::Contribution*>{&pair->parts().forces.term()});
     structural.emplace(*mechanics, mechanics::StructuralForm::energy, true);
     structural->leave_tangent();
     heat::HeatOptions of_heat;
     of_heat.tolerance = 1e-11;
     of_heat.symmetric = false;
     heat.emplace(mesh, kind, materials, heat::ThermalConditions{}, of_heat,
-                 std::vector<linear::Contribution*>{pair->heat(), &*structural});
+                 std::vector<linear::Contribution*>{pair->parts().heat.term(), &*structural});
     phases.heat = &*heat;
     phases.mechanics = mechanics.get();
     phases.structural = &*structural;
     phases.contacts = {pair.get()};
     state.heat = heat->initial_state(std::vector<double>{k_rubbing_start, k_rubbing_start});
     state.mechanics = mechanics->initial_state();
-    state.contacts = {pair->history().initial()};
+    state.contacts = {pair->parts().history.initial()};
   }
 };
 
@@ -179,7 +179,7 @@ class Iterate {
                                           .displacement = from.mechanics.displacement,
                                           .temperature = from.heat.temperature,
                                           .simultaneous = true});
-    blocks.mechanics->begin(from.mechanics, pass_);
+    blocks.mechanics->equations().begin(from.mechanics, pass_);
   }
   /// To this displacement and by some change of temperature.
   void move(std::vector<double> u) {

@@ -75,9 +75,10 @@ struct Model {
 
 /// Numbers for the unknowns of the mechanical phase: displacements, and pressures in their unit.
 std::vector<double> unknowns(Model& m, double seed, double size) {
-  std::vector<double> x = noise(m.body.mesh, m.mechanics->components(), seed, size);
-  if (m.mechanics->pressure() != nullptr) {
-    const std::vector<double> p = noise(m.body.mesh, m.mechanics->pressure()->fields(), 0.9 * seed, size);
+  std::vector<double> x = noise(m.body.mesh, m.mechanics->bodies().components, seed, size);
+  if (m.mechanics->bodies().pressure != nullptr) {
+    const std::vector<double> p =
+        noise(m.body.mesh, m.mechanics->bodies().pressure->fields().n_fields, 0.9 * seed, size);
     x.insert(x.end(), p.begin(), p.end());
   }
   return x;
@@ -92,7 +93,7 @@ double tangent_error(Model& m, double strain) {
   mechanics::MechanicalPass pass{.time = k_dt, .dt = k_dt, .temperature = m.state.heat.temperature};
   thermal.begin(m.state.heat, k_dt, k_dt);
   pass.iterate_temperature = thermal.temperature();
-  m.mechanics->begin(m.state.mechanics, pass);
+  m.mechanics->equations().begin(m.state.mechanics, pass);
 
   // Some state: a jump from the start.
   const mesh::Mesh& mesh = m.body.mesh;
@@ -173,7 +174,7 @@ TEST(CoupledTangent, IsTheDerivativeOfMixedElementsWithEverySubscaleAndLaw) {
                         body.options.stabilisation = stabilisation;
                         body.conditions.gravity = {0, -9.81, 0};
                       });
-          ASSERT_NE(model.mechanics->pressure(), nullptr);
+          ASSERT_NE(model.mechanics->bodies().pressure, nullptr);
           EXPECT_LT(tangent_error(model, 2e-3), 1e-6)
               << "shape " << static_cast<int>(c.shape) << " kind " << static_cast<int>(c.kind) << " form "
               << static_cast<int>(form) << " sub-scales " << static_cast<int>(stabilisation) << " material "
@@ -341,7 +342,7 @@ TEST(SimultaneousScheme, KeepsAFacePlaneWithAPressure) {
       EXPECT_LT(effort.mechanics.iterations, 10);
       EXPECT_LT(std::abs(effort.energy.defect()), 1e-8 * effort.energy.heat_exchanged);
       double least = 1, most = -1;
-      const auto nc = static_cast<std::size_t>(m.mechanics->components());
+      const auto nc = static_cast<std::size_t>(m.mechanics->bodies().components);
       for (const Index node : m.body.mesh.surfaces.at("right").nodes) {
         const double u = trial.mechanics.displacement[static_cast<std::size_t>(node) * nc];
         least = std::min(least, u);

@@ -62,14 +62,14 @@ TEST_P(Springback, OfAPartThatAMouldHeldIsThatOfBarsInARow) {
   mechanics::MechanicalConditions later = body.conditions;
   later.absent_bodies = {"right"};
   const std::vector<double> before = solved.state.displacement;
-  const double seconds = solved.phase->seconds_solver();
+  const double seconds = solved.phase->system().seconds();
   solved.phase->set_conditions(later, before);
-  EXPECT_GE(solved.phase->seconds_solver(), seconds) << "the new solver's clock goes on from the old one's";
+  EXPECT_GE(solved.phase->system().seconds(), seconds) << "the new solver's clock goes on from the old one's";
   solved.step(body, 2.0, 1.0);
   EXPECT_NEAR(at_plane(body, solved), push, 1e-9 * push);
   EXPECT_LT(largest_stress(solved), 1e-9 * push / (part + mould));
   EXPECT_NEAR(solved.report.work.internal_work, 0, 1e-9 * push * push / (part + mould));
-  const auto n = static_cast<std::size_t>(solved.phase->components());
+  const auto n = static_cast<std::size_t>(solved.phase->bodies().components);
   for (std::size_t i = 0; i < body.mesh.x.size(); ++i) {  // the mould stays where it was
     if (body.mesh.x[i][0] <= k_plane + 1e-9) continue;
     for (std::size_t k = 0; k < n; ++k) EXPECT_EQ(solved.state.displacement[i * n + k], before[i * n + k]);
@@ -166,7 +166,8 @@ TEST(AbsentBodies, ComeBackNew) {
 
   mechanics::renew_nodes(body.mesh, {0, 1}, solved.state);
   for (std::size_t i = 0; i < body.mesh.x.size(); ++i) {
-    const double u = solved.state.displacement[i * static_cast<std::size_t>(solved.phase->components())];
+    const double u =
+        solved.state.displacement[i * static_cast<std::size_t>(solved.phase->bodies().components)];
     if (body.mesh.x[i][0] >= k_plane - 1e-9) {
       EXPECT_EQ(u, 0);
     } else if (body.mesh.x[i][0] < 1e-9) {

@@ -76,7 +76,7 @@ TEST(MixedPhase, GoesOnFromAStateWithTheSameBits) {
     const Body body = pulled(AnalysisKind::plane_strain, mapping);
     Solved first(body);
     const mechanics::MechanicalState middle = first.state;
-    first.phase->forget();
+    first.phase->system().solver().forget();
     first.step(body, 2.0, 1.0);
     const auto fresh = body.phase();
     mechanics::MechanicalState end = fresh->initial_state();
@@ -116,7 +116,7 @@ TEST(MixedPhase, AMeltUnderItsWeightRests) {
         // The sinking is quadratic in height, the elements are linear: a second-order share of it is left
         // over as flow.
         EXPECT_NEAR(solved.state.pressure[static_cast<std::size_t>(node)], -bottom * depth, 1e-4 * bottom);
-        for (int i = 0; i < solved.phase->components(); ++i)
+        for (int i = 0; i < solved.phase->bodies().components; ++i)
           EXPECT_LT(std::abs(solved.u(body, node, i)), bottom / bulk);  // twice the sinking of the top
       }
     }

@@ -86,7 +86,7 @@ TEST_P(PatchTest, ALinearDisplacementGivesTheExactConstantStress) {
       EXPECT_NEAR(fields.pressure[e], -trace(stress) / 3, 1e-10 * norm(stress));
     }
   for (Index node = 0; node < body.mesh.n_nodes(); ++node)
-    for (int i = 0; i < solved.phase->components(); ++i)
+    for (int i = 0; i < solved.phase->bodies().components; ++i)
       EXPECT_NEAR(solved.u(body, node, i),
                   exact(body.mesh.x[static_cast<std::size_t>(node)])[static_cast<std::size_t>(i)], 1e-13);
 }

@@ -145,8 +145,8 @@ TEST_F(LiftedBlock, RestsOnASoftSkinOnceTheTangentHoldsWhatCameOffAndNotByShortS
   const parallel::GhostExchange ghosts(phase->mesh());
   const std::vector<int> fields{2};
   const auto attempt = [&](double held) {
-    phase->begin(old, pass);
-    std::vector<double> x = phase->start(old, pass);
+    phase->equations().begin(old, pass);
+    std::vector<double> x = phase->bodies().start(old, pass);
     const linear::NewtonReport report =
         mechanics::attempt_again(*phase, old, solver, ghosts, fields, x, block_.options.newton, held);
     EXPECT_EQ(report.converged, held > 0);
