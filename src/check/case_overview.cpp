@@ -117,9 +117,9 @@ results::SkinOverview contact_overview(const cases::CaseSpec& spec, const setup:
   // Contacts of the first stage have a pair that knows its conductance; others have none yet, and
   // are told by their file alone.
   const auto pair =
-      std::ranges::find_if(a.contacts, [&](const auto& c) { return c->spec().name == contact.name; });
-  const bool conducts = pair != a.contacts.end() && (*pair)->spec().heat.has_value();
-  skin.law = conducts ? law_text(contact, *(*pair)->spec().heat, m, (hot + cold) / 2) : "no heat";
+      std::ranges::find_if(a.contacts, [&](const auto& c) { return c->parts().spec.name == contact.name; });
+  const bool conducts = pair != a.contacts.end() && (*pair)->parts().spec.heat.has_value();
+  skin.law = conducts ? law_text(contact, *(*pair)->parts().spec.heat, m, (hot + cold) / 2) : "no heat";
   return skin;
 }
 

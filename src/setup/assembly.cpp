@@ -69,7 +69,7 @@ void check_coverage(const cases::CaseSpec& spec, const Assembly& a) {
     bool slides = false;
     for (const auto& other : a.contacts) {
       if (other->parts().spec.slave != pair->parts().spec.slave) continue;
-      covered += other->geometry().kinematics().coverage();
+      covered += other->parts().geometry.kinematics().coverage();
       slides = slides || other->parts().spec.formulation == contact::Formulation::large_sliding;
     }
     if (!slides && covered < (spec.contacts[c].surfaces.empty() ? k_given : k_found))

@@ -215,7 +215,7 @@ TEST(ContactPair, MakesTheFinerSurfaceTheSlaveAndOfTwoAlikeTheSofterOne) {
   for (const bool reversed : {false, true}) {
     s.slave = reversed ? "upper_bottom" : "lower_top";
     s.master = reversed ? "lower_top" : "upper_bottom";
-    EXPECT_EQ(ContactPair(mesh, AnalysisKind::plane_strain, s).spec().slave, "lower_top");
+    EXPECT_EQ(ContactPair(mesh, AnalysisKind::plane_strain, s).parts().spec.slave, "lower_top");
   }
   const mesh::Mesh alike =
       test::distribute_blocks(test::raw_blocks({{0.3, 0.1}, {0.3, 0.1}, {4, 2}, {4, 2}, 0}, Shape::quad4));
