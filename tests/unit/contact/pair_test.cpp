@@ -219,9 +219,9 @@ TEST(ContactPair, MakesTheFinerSurfaceTheSlaveAndOfTwoAlikeTheSofterOne) {
   }
   const mesh::Mesh alike =
       test::distribute_blocks(test::raw_blocks({{0.3, 0.1}, {0.3, 0.1}, {4, 2}, {4, 2}, 0}, Shape::quad4));
-  EXPECT_EQ(ContactPair(alike, AnalysisKind::plane_strain, s, std::vector{70e9, 210e9}).spec().slave,
+  EXPECT_EQ(ContactPair(alike, AnalysisKind::plane_strain, s, std::vector{70e9, 210e9}).parts().spec.slave,
             "lower_top");
-  EXPECT_EQ(ContactPair(alike, AnalysisKind::plane_strain, s, std::vector{210e9, 70e9}).spec().slave,
+  EXPECT_EQ(ContactPair(alike, AnalysisKind::plane_strain, s, std::vector{210e9, 70e9}).parts().spec.slave,
             "upper_bottom");
 }
 
