@@ -86,6 +86,8 @@ int main(int argc, char** argv) {
     listen_to_signals();
     mesh::give_up_reading_when(stop_asked);
   }
+  // The program has no threads of its own while it reads a mesh.
+  mesh::read_in_copies_of_this_process();
   // Libraries may change the environment, so it is read before they start.
   keep_environment();
   keep_arguments(argc, argv);

@@ -1,7 +1,7 @@
 /// Decides whether the factors of one tangent precondition the next one of the same Newton iteration. Near
 /// the solution contact and yield hardly change from one iteration to the next, so that a few directions of
-/// GMRES do with the factors that are there, while new ones in three dimensions cost as much as some thirty
-/// of them.
+/// GMRES do with the factors that are there, while new ones cost as much as some thirty of them in three
+/// dimensions and ten in the plane.
 #pragma once
 
 namespace solidus::linear {
@@ -9,7 +9,7 @@ namespace solidus::linear {
 class FactorAge {
  public:
   /// Directions after which the factors of before are given up: half of what new ones cost.
-  static constexpr int k_patience = 14;
+  static constexpr int patience(int dimension) { return dimension == 3 ? 14 : 6; }
 
   /// There are no factors, or nothing of the past shall count.
   void forget() { made_ = old_ = false; }

@@ -54,8 +54,12 @@ void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, G
   PC inner = innermost(pc);
   petsc::check(PCSetType(inner, symmetric ? PCCHOLESKY : PCLU), "PCSetType");
   petsc::check(PCFactorSetMatSolverType(inner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
-  option_ = prefix + (redundant ? "redundant_" : "") + "mat_mumps_icntl_14";
+  const std::string mumps = prefix + (redundant ? "redundant_" : "") + "mat_mumps_";
+  option_ = mumps + "icntl_14";
   petsc::set_default_option(option_, std::to_string(workspace_));
+  // Rows and columns are scaled by the diagonal: the iterations by which MUMPS would make all of them equal in
+  // size cost more than they save in pivots (decision 0092).
+  if (symmetric) petsc::set_default_option(mumps + "icntl_8", "1");
 }
 
 bool Factorisation::try_again(KSP ksp, Mat matrix) {

@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using namespace solidus::tests;
 
 /// A copy of the program in a folder whose name has a blank, and what replaces its reader there.
@@ -75,6 +76,31 @@ TEST_F(ForeignReader, IsRestrictedByTheSystemUnlessTheScriptIsTrusted) {
   EXPECT_EQ(shell("cat filter").said, "Seccomp:\t2\n");
   EXPECT_EQ(shell("'./a copy/solidus' mesh-info part.geo --trust-geo").code, 0);
   EXPECT_EQ(shell("cat filter").said, "Seccomp:\t0\n");
+}
+
+/// Two triangles among so many nodes that reading them takes a while.
+std::string mesh_of_two_triangles(int n_nodes) {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + std::to_string(n_nodes) +
+                     "\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n";
+  for (int node = 5; node <= n_nodes; ++node) text += std::to_string(node) + " 0.5 0.5 0\n";
+  return text + "$EndNodes\n$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 2 4 3\n$EndElements\n";
+}
+
+// A mesh of a format that the program reads itself needs no reader: a copy of the program reads it, with the
+// same limits and restrictions, and nothing of the program is open to it but the two pipes.
+TEST_F(ForeignReader, IsNotNeededForAMeshThatTheProgramReadsItself) {
+  write("part.msh", mesh_of_two_triangles(4));
+  EXPECT_EQ(shell("'./a copy/solidus' mesh-info part.msh").code, 0);
+  write("part.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0\n");
+  expect_refused("'./a copy/solidus' mesh-info part.msh", {"part.msh"});
+  write("part.msh", mesh_of_two_triangles(1500000));
+  expect_refused("export SOLIDUS_MESH_MEMORY='10 MB'; './a copy/solidus' mesh-info part.msh",
+                 {"part.msh", "more memory than 10 MB"});
+  const Outcome watched = shell(
+      "exec 7< part.msh; './a copy/solidus' mesh-info part.msh >/dev/null & program=$!\n"
+      "while kill -0 $program 2>/dev/null; do for child in $(cat /proc/$program/task/$program/children); do\n"
+      "  grep Seccomp: /proc/$child/status; ls /proc/$child/fd | tail -1; done; done 2>/dev/null | sort -u");
+  EXPECT_THAT(watched.said, AllOf(HasSubstr("Seccomp:\t2\n"), Not(HasSubstr("7\n"))));
 }
 
 TEST_F(ForeignReader, OfAnotherBuildIsRefused) {

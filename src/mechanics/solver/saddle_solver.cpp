@@ -139,8 +139,7 @@ linear::LinearReport SaddleSolver::solve(linear::BlockMatrix&, std::span<const d
 linear::LinearReport SaddleSolver::solve_with_old_factors(std::span<const double> b, double forcing) {
   linear::LinearReport report;
   report.converged = false;
-  // In the plane factors cost no more than the directions that would save them.
-  if (!choice_.direct || !choice_.made || mesh_.dimension != 3) return report;
+  if (!choice_.direct || !choice_.made) return report;
   double square = 0;
   for (const double value : b) square += value * value;
   if (!factors_.may_serve(std::sqrt(parallel::global_sum(square)))) return report;
@@ -150,7 +149,7 @@ linear::LinearReport SaddleSolver::solve_with_old_factors(std::span<const double
   restrict_right(b);
   const Stopwatch watch(seconds_.solve);
   return outer_.factorised->solve(work_.right, work_.solution, std::max(forcing, options_.relative_tolerance),
-                                  0, linear::FactorAge::k_patience);
+                                  0, linear::FactorAge::patience(mesh_.dimension));
 }
 
 void SaddleSolver::restrict_right(std::span<const double> b) {

@@ -9,7 +9,7 @@
 
 #include "mesh/files/body_partition.hpp"
 #include "mesh/files/file_format.hpp"
-#include "mesh/files/gmsh_script.hpp"
+#include "mesh/files/own_format.hpp"
 #include "mesh/files/split_cells.hpp"
 #include "mesh/gmsh/faceted_casting.hpp"
 #include "mesh/gmsh/session.hpp"
@@ -58,26 +58,13 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
   const std::string& path = source.path;
   check_readable(path);
   const FileFormat& format = file_format(path);
-  const bool shapes = format.holds == FileHolds::shapes, script = format.holds == FileHolds::script;
-  if (casting != nullptr && !shapes) return mesh_skins(source, format, *casting);
+  if (casting != nullptr && format.holds != FileHolds::shapes) return mesh_skins(source, format, *casting);
   if (format.holds == FileHolds::skin)
     throw InputError(
         {path},
         "an " + std::string(format.name) + " file holds a skin of triangles and no elements of a body",
         "[[mesh.size]] for each body: then what it encloses is meshed");
-  // Choices that only a geometry has are refused for a mesh.
-  if (!source.geometry.groups.empty() && !is_geometry(format.holds))
-    throw InputError({path}, "the file holds a mesh, whose groups are its own",
-                     "a STEP, BREP, IGES or .geo file");
-  if (source.geometry.conforming && !shapes)
-    throw InputError({path}, "'conforming' is for geometries of CAD programs", "a STEP, BREP or IGES file");
-  // Files that can do more than describe geometry are checked before Gmsh sees them.
-  if (!source.trust_script) {
-    refuse_options_file(path);
-    if (script) check_gmsh_script(path);
-  }
-  if (!source.constants.empty() && !script)
-    throw InputError({path}, "the mesh file is no .geo script and has no constants");
+  check_choices(source, format);
   RawMesh mesh = read_format(source, format, casting);
   // Cells that the program does not compute are split into tetrahedra.
   split_cells(mesh, path);

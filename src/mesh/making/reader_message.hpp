@@ -18,8 +18,8 @@ namespace solidus::mesh {
 /// Descriptors of files by which the reader knows its ends of the pipes.
 inline constexpr int k_request_descriptor = 3, k_answer_descriptor = 4;
 /// The first word of an answer. A mesh follows, or a text where it is an error with one. An outlook precedes
-/// the answer, where a geometry is meshed.
-enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal, outlook };
+/// the answer, where a geometry is meshed. A copy of the program leaves some files to the reader.
+enum class ReaderAnswer : int { mesh, unusable_geometry, input_error, memory, internal, outlook, elsewhere };
 
 /// Thrown where the other end sent none of these messages, or has gone.
 class MessageError : public std::runtime_error {

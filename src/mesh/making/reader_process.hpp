@@ -1,10 +1,10 @@
 /// Reader process: foreign meshes are read, and geometries meshed, in a process of their own, so that a
 /// crash, an endless loop or a lack of memory there does not end the program.
 ///
-/// The reader is a program of its own, `solidus-reader` (mesh/gmsh/serve.hpp), and alone is linked with Gmsh,
-/// whose libraries take longer to load than all others together. It takes a request, hands the mesh back
-/// through a pipe and ends. It may start no program, write no file and open no connection, unless the script
-/// is trusted.
+/// The reader is a program of its own, `solidus-reader` (mesh/making/serve.hpp), and alone is linked with
+/// Gmsh, whose libraries take longer to load than all others together: a program may have a copy of itself
+/// read what needs none of them. The reader takes a request, hands the mesh back through a pipe and ends. It
+/// may start no program, write no file and open no connection, unless the script is trusted.
 #pragma once
 
 #include "mesh/making/casting_geometry.hpp"
@@ -18,6 +18,10 @@ using ReadMesh = RawMesh(const MeshSource& source, const CastingGeometry* castin
 /// From now on meshes are read in this process, whatever happens: for programs that link what reads them,
 /// read_in_this_process(&read_mesh_here) with mesh/gmsh/import.hpp. Null: readers read them again.
 void read_in_this_process(ReadMesh* read);
+
+/// From now on a copy of this process (fork) reads the formats that need none of the reader's libraries,
+/// under the same restrictions: for a program none of whose threads holds a lock while it reads meshes.
+void read_in_copies_of_this_process();
 
 /// Tells read_mesh() when to give up waiting for a reader: it ends it then and throws StepRejected.
 /// @param asked  called about ten times a second; nullptr: wait on

@@ -37,7 +37,10 @@ TEST(KrylovSolver, FactorsThatNeedMoreWorkspaceThanForeseenGetIt) {
   const int n_processes = processes::count();
   if (n_processes > 1) GTEST_SKIP() << "a matrix of one process";
   constexpr PetscInt n = 600;
-  petsc::check(PetscOptionsSetValue(nullptr, "-tight_mat_mumps_icntl_14", "0"), "PetscOptionsSetValue");
+  // Scaled by MUMPS's own iterations its pivots move further than the analysis foresees.
+  for (const auto& [option, value] :
+       {std::pair("-tight_mat_mumps_icntl_14", "0"), {"-tight_mat_mumps_icntl_8", "77"}})
+    petsc::check(PetscOptionsSetValue(nullptr, option, value), "PetscOptionsSetValue");
   const petsc::MatHandle matrix = saddle_point(n);
   KrylovSolver solver({.prefix = "tight_", .symmetric = true});
   const std::vector<double> b(2 * n, 1.0);

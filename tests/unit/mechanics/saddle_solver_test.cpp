@@ -217,9 +217,9 @@ TEST(SaddleSolver, FactorsOfAnIterationBeforeServeWhereTheyAreNear) {
     ASSERT_TRUE(report.converged) << report.reason;
     RecordProperty(near ? "near" : "far", report.iterations);
     if (near)
-      EXPECT_TRUE(report.iterations > 1 && report.iterations <= linear::FactorAge::k_patience);
+      EXPECT_TRUE(report.iterations > 1 && report.iterations <= linear::FactorAge::patience(3));
     else
-      EXPECT_GT(report.iterations, linear::FactorAge::k_patience);
+      EXPECT_GT(report.iterations, linear::FactorAge::patience(3));
     casting.solver->forget();
     EXPECT_TRUE(casting.solve(1e-10, exact, 0.1).converged);
     EXPECT_LT(distance(d, exact), near ? 1e-5 : 1e-9);

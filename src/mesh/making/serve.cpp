@@ -1,5 +1,5 @@
 /// A request is read, answered by a mesh or a failure, and the memory that it took is told at the end.
-#include "mesh/gmsh/serve.hpp"
+#include "mesh/making/serve.hpp"
 
 #include <sys/prctl.h>
 
@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 
-#include "mesh/gmsh/import.hpp"
 #include "mesh/making/casting_geometry.hpp"
 #include "mesh/making/meshing_outlook.hpp"
 #include "mesh/making/reader_message.hpp"
@@ -41,7 +40,7 @@ void tell_memory_at_exit() {
 
 }  // namespace
 
-void serve_request() {
+void serve_request(ReadRequest* read, double held) {
   // The process ends with the one that asks.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Ctrl-C reaches all processes of a terminal: the parent decides.
@@ -63,7 +62,7 @@ void serve_request() {
   // Memory and rights are limited before anything of the file is read.
   double memory = 0;
   take(&memory, sizeof memory);
-  sandbox::limit_memory(memory);
+  sandbox::limit_memory(memory > 0 ? memory + held : memory);
   memory_limit = memory;
   std::atexit(tell_memory_at_exit);
   if (!source.trust_script) sandbox::forbid_all_but_reading();
@@ -73,10 +72,10 @@ void serve_request() {
   });
   // The kind of answer goes first, then the mesh or the text.
   try {
-    const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
+    const std::optional<RawMesh> mesh = read(source, casting ? &*casting : nullptr);
     answer_begun = true;
-    say(ReaderAnswer::mesh);
-    put_mesh(mesh, put);
+    say(mesh ? ReaderAnswer::mesh : ReaderAnswer::elsewhere);
+    if (mesh) put_mesh(*mesh, put);
   } catch (const UnusableGeometry& error) {
     say(ReaderAnswer::unusable_geometry);
     put_text(error.what(), put);
