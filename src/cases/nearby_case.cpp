@@ -70,10 +70,11 @@ NearbyCase longer_steps(const CaseSpec& spec, double displacement_error) {
     if (spec.has_heat()) {
       made.overrides.push_back(
           fmt::format("time.temperature_error={} K", k_errors * t.temperature_error.value_or(1.0)));
-      made.overrides.push_back(fmt::format("time.solid_fraction_change={}",
-                                           std::min(1.0, k_steps * t.solid_fraction_change.value_or(0.1))));
+      if (t.solid_fraction_change || !spec.has_mechanics())
+        made.overrides.push_back(fmt::format("time.solid_fraction_change={}",
+                                             std::min(1.0, k_steps * t.solid_fraction_change.value_or(0.1))));
     }
-    // A share of the skin that is not given follows the error of the displacement.
+    // Shares of the casting and of its skin that are not given follow the error of the displacement.
     if (t.skin_change)
       made.overrides.push_back(fmt::format("time.skin_change={}", std::min(1.0, k_steps * *t.skin_change)));
     if (spec.has_mechanics()) {

@@ -58,7 +58,7 @@ void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, G
   option_ = mumps + "icntl_14";
   petsc::set_default_option(option_, std::to_string(workspace_));
   // Rows and columns are scaled by the diagonal: the iterations by which MUMPS would make all of them equal in
-  // size cost more than they save in pivots (decision 0092).
+  // size cost more than they save in pivots (decision 0097).
   if (symmetric) petsc::set_default_option(mumps + "icntl_8", "1");
 }
 

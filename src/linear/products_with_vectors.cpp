@@ -4,7 +4,7 @@
 /// OpenBLAS copies each block of the factors into its own layout, which costs several times the product: in a
 /// coupled casting a tenth of the whole run. The functions here stand before those of the library, as the
 /// linker finds them first; they hand one vector to `dgemv` and `dtrsv`, and all else to the library. Nothing
-/// calls them by name: the build asks the linker for them (decision 0092).
+/// calls them by name: the build asks the linker for them (decision 0097).
 #include <dlfcn.h>
 #include <petscblaslapack.h>
 

@@ -67,6 +67,13 @@ double PhaseFraction::value(double temperature, double plateau_share) const {
   return fraction;
 }
 
+double PhaseFraction::isothermal_share() const {
+  double share = 0;
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    if (points_[i].first == points_[i - 1].first) share += points_[i - 1].second - points_[i].second;
+  return share;
+}
+
 double PhaseFraction::below(double temperature) const {
   if (temperature <= solidus()) return 1.0;
   if (temperature > liquidus()) return 0.0;

@@ -49,6 +49,8 @@ class PhaseFraction {
   Lane derivative(const Lane& temperature) const { return line(temperature).slope; }
   double above(double temperature) const;  ///< the limit from the right; differs from below() at a jump only
   double below(double temperature) const;  ///< the limit from the left
+  /// The share of the change that happens at single temperatures, from 0 to 1.
+  double isothermal_share() const;
   double solidus() const { return points_.front().first; }
   double liquidus() const { return points_.back().first; }
   const std::vector<std::pair<double, double>>& points() const { return points_; }  ///< temperature rising

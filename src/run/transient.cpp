@@ -35,19 +35,34 @@ std::unique_ptr<coupling::ShotMap> shot_map(const cases::CaseSpec& spec, const s
   return std::make_unique<coupling::ShotMap>(*a.heat, cases::staying_bodies(spec), options);
 }
 
-/// What steps are down to while the last melt freezes, as a share of the time since it was poured. Graphite
-/// that expands presses melt out of the mush to the very end, which moves what is next to it by half of the
-/// whole distortion (decision 0090).
-double last_melt_share(const std::vector<results::CastBody>& cast,
-                       const std::vector<material::Material>& materials) {
-  constexpr double k_share = 0.01, k_share_where_it_expands = 0.004;
-  const auto expands = [&](const results::CastBody& body) {
+/// Whether a cast body expands while it freezes. Graphite that precipitates presses melt out of the mush to
+/// the very end, which moves what is next to it by half of the whole distortion (decision 0090).
+bool expands_as_it_freezes(const std::vector<results::CastBody>& cast,
+                           const std::vector<material::Material>& materials) {
+  return std::any_of(cast.begin(), cast.end(), [&](const results::CastBody& body) {
     const auto& changes = materials[static_cast<std::size_t>(body.body)].phase_changes;
     return std::any_of(changes.begin(), changes.end(), [](const material::PhaseChange& change) {
       return change.graphite || (change.solidification && change.volume_change > 0);
     });
-  };
-  return std::any_of(cast.begin(), cast.end(), expands) ? k_share_where_it_expands : k_share;
+  });
+}
+
+/// What steps are down to while the last melt freezes, as a share of the time since it was poured.
+double last_melt_share(bool expands) {
+  return expands ? 0.004 : 0.01;
+}
+
+/// The change of the solid fraction in a step of a casting that deforms. What freezes at one temperature
+/// contracts, and the error of the temperature does not tell of it: only so much of it may freeze in a step.
+double solid_fraction_of_step(const std::vector<results::CastBody>& cast,
+                              const std::vector<material::Material>& materials, bool expands) {
+  constexpr double k_at_one_temperature = 0.015, k_where_it_expands = 0.016, k_most = 0.1;
+  if (expands) return k_where_it_expands;
+  double largest = 0;
+  for (const results::CastBody& body : cast)
+    for (const material::PhaseChange& change : materials[static_cast<std::size_t>(body.body)].phase_changes)
+      if (change.solidification) largest = std::max(largest, change.fraction.isothermal_share());
+  return largest * k_most > k_at_one_temperature ? k_at_one_temperature / largest : k_most;
 }
 
 coupling::Simulation make_simulation(const cases::CaseSpec& spec, setup::Assembly& a) {
@@ -65,11 +80,14 @@ coupling::Simulation make_simulation(const cases::CaseSpec& spec, setup::Assembl
     const std::vector<double> sections = setup::sections_of(spec, a.mesh);
     const double error = setup::displacement_error(spec.time, sections);
     const std::vector<results::CastBody> cast = setup::cast_bodies(spec, a.materials, a.start);
+    const bool expands = expands_as_it_freezes(cast, a.materials);
     const auto limit = [&](coupling::StepLimits& limits) {
       limits.displacement = error;
       limits.skin = setup::skin_change(spec.time, sections);
+      limits.solid_fraction = setup::solid_fraction_change(
+          spec.time, sections, solid_fraction_of_step(cast, a.materials, expands));
       limits.inertia = spec.dynamics.has_value();
-      limits.last_melt = spec.has_mechanics() && !cast.empty() ? last_melt_share(cast, a.materials) : 0;
+      limits.last_melt = spec.has_mechanics() && !cast.empty() ? last_melt_share(expands) : 0;
       // A gap is between two displacements.
       if (spec.has_mechanics()) limits.opening = 2 * error;
     };

@@ -69,6 +69,8 @@ void check_number_of_steps(const cases::TimeSpec& t, double steps) {
     throw InputError(t.where, fmt::format("{:.3g} steps would be needed", steps), "at most 1e8");
 }
 
+constexpr double k_solid_fraction_of_heat = 0.1;  ///< that may change in a step
+
 /// The error of the displacement that a step may commit where the case does not say it [m].
 double default_displacement_error(std::span<const double> sections) {
   // A casting shrinks by 1e-2: across a wall, of four sections, by a hundred times this.
@@ -77,6 +79,20 @@ double default_displacement_error(std::span<const double> sections) {
   for (const double section : sections)
     if (section > 0) thinnest = std::min(thinnest, section);
   return k_share_of_section * thinnest;
+}
+
+bool deforms(std::span<const double> sections) {
+  return std::ranges::any_of(sections, [](double section) { return section > 0; });
+}
+
+/// A share of the casting that may change in a step: `standard` where the case does not say which error of
+/// the displacement it allows.
+double share_of_step(double standard, const cases::TimeSpec& t, std::span<const double> sections) {
+  constexpr double k_least = 1e-3, k_most = 0.5;
+  if (!t.displacement_error || !deforms(sections)) return standard;
+  // Four times the error is twice the step, and what a step changes goes with it.
+  const double ratio = *t.displacement_error / default_displacement_error(sections);
+  return std::clamp(standard * std::sqrt(ratio), k_least, k_most);
 }
 
 coupling::StepOptions step_options(const cases::TimeSpec& t, double step) {
@@ -92,7 +108,7 @@ coupling::StepOptions step_options(const cases::TimeSpec& t, double step) {
   options.limits.control = t.error_control;
   options.limits.temperature = t.temperature_error.value_or(1.0);
   options.limits.stress = t.stress_error.value_or(0.005);
-  options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
+  options.limits.solid_fraction = solid_fraction_change(t, {}, k_solid_fraction_of_heat);
   options.limits.skin = skin_change(t, {});
   return options;
 }
@@ -142,14 +158,13 @@ double displacement_error(const cases::TimeSpec& t, std::span<const double> sect
 }
 
 double skin_change(const cases::TimeSpec& t, std::span<const double> sections) {
-  constexpr double k_least = 1e-3, k_most = 0.5;
   if (t.skin_change) return *t.skin_change;
-  const double standard = coupling::StepLimits{}.skin;
-  const bool deforms = std::ranges::any_of(sections, [](double section) { return section > 0; });
-  if (!t.displacement_error || !deforms) return standard;
-  // Four times the error is twice the step, and the share of a skin goes with the step.
-  const double ratio = *t.displacement_error / default_displacement_error(sections);
-  return std::clamp(standard * std::sqrt(ratio), k_least, k_most);
+  return share_of_step(coupling::StepLimits{}.skin, t, sections);
+}
+
+double solid_fraction_change(const cases::TimeSpec& t, std::span<const double> sections, double standard) {
+  if (t.solid_fraction_change) return *t.solid_fraction_change;
+  return deforms(sections) ? share_of_step(standard, t, sections) : k_solid_fraction_of_heat;
 }
 
 coupling::TimeOptions time_options(const cases::CaseSpec& spec) {

@@ -24,4 +24,9 @@ double displacement_error(const cases::TimeSpec& t, std::span<const double> sect
 /// @param sections  as above; empty: not known, so that the displacement error does not count
 double skin_change(const cases::TimeSpec& t, std::span<const double> sections);
 
+/// The change of the solid share in a step [1]: the one given, else with heat alone 0.1, and where bodies
+/// deform `standard` times the same root.
+/// @param sections  as above
+double solid_fraction_change(const cases::TimeSpec& t, std::span<const double> sections, double standard);
+
 }  // namespace solidus::setup
