@@ -56,7 +56,7 @@ double last_melt_share(bool expands) {
 /// contracts, and the error of the temperature does not tell of it: only so much of it may freeze in a step.
 double solid_fraction_of_step(const std::vector<results::CastBody>& cast,
                               const std::vector<material::Material>& materials, bool expands) {
-  constexpr double k_at_one_temperature = 0.015, k_where_it_expands = 0.016, k_most = 0.1;
+  constexpr double k_at_one_temperature = 0.013, k_where_it_expands = 0.016, k_most = 0.1;
   if (expands) return k_where_it_expands;
   double largest = 0;
   for (const results::CastBody& body : cast)
