@@ -17,6 +17,7 @@
 #include "criteria/criterion.hpp"
 #include "criteria/feeding_graph.hpp"
 #include "heat/thermal_phase.hpp"
+#include "material/local_law.hpp"
 #include "material/material.hpp"
 
 namespace solidus::criteria {
@@ -34,6 +35,8 @@ struct CriterionContext {
   std::vector<std::string> feeders;                  ///< groups of the mesh
   bool feeding = false;                              ///< feeding.follow
   FeedingOptions feeding_options = {};
+  /// Tables of strength and grain of the cards, [body]; empty: there are none.
+  std::vector<std::vector<material::LocalLaw>> local_laws = {};
 };
 
 class CriterionKind {

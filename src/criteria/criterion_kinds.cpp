@@ -3,6 +3,7 @@
 #include "criteria/feeding.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/gas_pores.hpp"
+#include "criteria/local_properties.hpp"
 #include "criteria/mush_strain.hpp"
 #include "criteria/pools.hpp"
 #include "criteria/quantities.hpp"
@@ -80,6 +81,12 @@ struct MushStrainKind {
   }
 };
 
+/// Strength and grain of metals whose cards have tables of them.
+struct LocalPropertiesKind {
+  static constexpr auto fields = criteria::fields::k_of_local_properties;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const { return LocalProperties::make(c); }
+};
+
 }  // namespace
 
 std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
@@ -92,6 +99,7 @@ std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
     all.push_back(std::make_unique<CriterionKindOf<GasKind>>());
     all.push_back(std::make_unique<CriterionKindOf<StrainKind>>());
     all.push_back(std::make_unique<CriterionKindOf<MushStrainKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<LocalPropertiesKind>>());
     return all;
   }();
   return kinds;

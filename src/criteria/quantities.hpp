@@ -351,6 +351,58 @@ inline constexpr Quantity k_cracking_index{.name = "cracking_index",
                                            .compared = true,
                                            .pictured = true};
 
+inline constexpr Quantity k_tensile_strength{
+    .name = "tensile_strength",
+    .unit = "Pa",
+    .label = "Tensile strength (by table)",
+    .doc = "Tensile strength of a bar cut from the place, by the tables [[local]] of the card",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::least,
+    .compared = true,
+    .pictured = true};
+
+inline constexpr Quantity k_elongation{
+    .name = "elongation",
+    .unit = "1",
+    .label = "Elongation (by table)",
+    .doc = "Elongation at fracture of a bar cut from the place, by the tables [[local]] of the card",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::least,
+    .compared = true,
+    .pictured = true,
+    .shown_as = quantities::k_percent};
+
+inline constexpr Quantity k_hardness{
+    .name = "hardness",
+    .unit = "1",
+    .label = "Brinell hardness (by table)",
+    .doc = "Brinell's number of the place, by the tables [[local]] of the card",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .compared = true,
+    .pictured = true,
+    .shown_as = {"1", "HB"}};
+
+inline constexpr Quantity k_grain_size{.name = "grain_size",
+                                       .unit = "m",
+                                       .label = "Grain size (by table)",
+                                       .doc = "Size of grains, by the tables [[local]] of the card",
+                                       .group = quantities::Group::criteria,
+                                       .needs = {.heat = true, .melting = true},
+                                       .no_value = -1,
+                                       .kept = quantities::Kept::last,
+                                       .worst = quantities::Extreme::greatest,
+                                       .shown_as = {"um", "µm", 1e6}};
+
 /// Fields of Freezing, in their order.
 inline constexpr std::array k_of_freezing = {&k_solidified_at,
                                              &k_local_solidification_time,
@@ -383,7 +435,13 @@ inline constexpr std::array k_of_strain = {&k_strain_in_liquid, &k_strain_since_
 /// Fields of MushStrain, in their order.
 inline constexpr std::array k_of_mush_strain = {&k_strained_tendency, &k_cracking_index};
 
+/// Fields of LocalProperties, in their order.
+inline constexpr std::array k_of_local_properties = {&k_tensile_strength, &k_elongation, &k_hardness,
+                                                     &k_grain_size};
+
 /// Those that a run has where a material has the data.
-inline constexpr std::array k_of_some_materials = {&k_gas_pores, &k_strained_tendency, &k_cracking_index};
+inline constexpr std::array k_of_some_materials = {
+    &k_gas_pores,  &k_strained_tendency, &k_cracking_index, &k_tensile_strength,
+    &k_elongation, &k_hardness,          &k_grain_size};
 
 }  // namespace solidus::criteria::fields

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "cases/case_materials.hpp"
 #include "criteria/criteria.hpp"
 #include "criteria/criterion_kind.hpp"
 #include "parallel/parallel.hpp"
@@ -93,6 +94,17 @@ void check_one_alloy(const cases::CaseSpec& spec, const std::vector<char>& follo
   }
 }
 
+/// Strength by where the metal froze, of the cards of bodies that criteria follow.
+std::vector<std::vector<material::LocalLaw>> local_laws(const cases::CaseSpec& spec,
+                                                        const std::vector<char>& followed) {
+  std::vector<std::vector<material::LocalLaw>> laws(spec.bodies.size());
+  const std::vector<std::filesystem::path> folders = cases::material_folders();
+  for (std::size_t b = 0; b < laws.size(); ++b)
+    if (followed[b] != 0)
+      laws[b] = material::find_local_laws(spec.bodies[b].material, folders, spec.bodies[b].where);
+  return laws;
+}
+
 }  // namespace
 
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
@@ -104,9 +116,10 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
   const bool melts = std::any_of(materials.begin(), materials.end(),
                                  [](const material::Material& m) { return m.solidification() != nullptr; });
   if (!spec.criteria.follow || !melts || spec.time.steady) return nullptr;
-  if (spec.feeding.moves_heat) check_one_alloy(spec, followed_bodies(spec, materials, start));
   // What every criterion may ask for, gathered once: mesh, materials, phases and the options of the
   // case.
+  const std::vector<char> followed = followed_bodies(spec, materials, start);
+  if (spec.feeding.moves_heat) check_one_alloy(spec, followed);
   const criteria::CriterionContext context{
       .mesh = mesh,
       .kind = spec.analysis.kind,
@@ -114,12 +127,13 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
       .heat = phases.heat,
       .mechanics = phases.mechanics != nullptr,
       .temperature = phases.heat != nullptr ? std::vector<double>{} : phases.temperature,
-      .followed = followed_bodies(spec, materials, start),
+      .followed = followed,
       .evaluation = spec.criteria.evaluation,
       .feeding_limit = spec.criteria.feeding_limit,
       .feeders = spec.criteria.feeders,
       .feeding = spec.feeding.follow,
-      .feeding_options = feeding_options(spec, mesh, materials, start)};
+      .feeding_options = feeding_options(spec, mesh, materials, start),
+      .local_laws = local_laws(spec, followed)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   // A mistake in a criterion's options is told with the place of the section that it belongs to.
   for (const auto& kind : criteria::criterion_kinds()) {

@@ -290,12 +290,16 @@ Material make_material(std::string name, const MaterialData& data) {
   else if (data.young_modulus && m.chooses_viscosity())
     m.notes.push_back(
         {"twice_shear_viscosity", "not given: chosen by the program for the body and the step", 0, 0});
-  // Flow, criteria, gas, graphite and a law from outside follow, and at last the model of the liquid is
-  // checked against all of them.
+  // Flow, criteria, gas, graphite, local properties and a law from outside follow, and at last the model of
+  // the liquid is checked against all of them.
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
   if (m.gas && !m.gas->source.empty()) m.notes.push_back({"gas", m.gas->source, 0, 0});
   if (m.graphite && !m.graphite->source.empty()) m.notes.push_back({"graphite", m.graphite->source, 0, 0});
+  for (const LocalLaw& law : data.local_laws) {
+    check_local_law(law);
+    m.notes.push_back({"local", law.source, 0, 0});
+  }
   if (data.external) add_external(m, *data.external);
   if (data.granular) add_granular(m, *data.granular);
   check_liquid_model(m, data);
@@ -309,6 +313,7 @@ namespace {
 struct Card {
   Material material;
   MaterialSpreads spreads;
+  std::vector<LocalLaw> local_laws;
 };
 
 Card load_card(const fs::path& file, std::span<const fs::path> library) {
@@ -317,7 +322,7 @@ Card load_card(const fs::path& file, std::span<const fs::path> library) {
   MaterialData data = material_section().read(document);
   Material material = make_material(file.stem().string(), data);
   check_spreads(data.spread, material, file.string());
-  return {std::move(material), std::move(data.spread)};
+  return {std::move(material), std::move(data.spread), std::move(data.local_laws)};
 }
 
 }  // namespace
@@ -329,6 +334,11 @@ Material load_material(const fs::path& file, std::span<const fs::path> library) 
 MaterialSpreads find_spreads(const std::string& reference, std::span<const fs::path> library,
                              const SourceLocation& where) {
   return load_card(locate(reference, library, where), library).spreads;
+}
+
+std::vector<LocalLaw> find_local_laws(const std::string& reference, std::span<const fs::path> library,
+                                      const SourceLocation& where) {
+  return load_card(locate(reference, library, where), library).local_laws;
 }
 
 Material find_material(const std::string& reference, std::span<const fs::path> library,

@@ -14,6 +14,7 @@
 #include "material/cards/flow_keys.hpp"
 #include "material/external_law.hpp"
 #include "material/granular_data.hpp"
+#include "material/local_law.hpp"
 #include "material/material.hpp"
 #include "material/varied.hpp"
 
@@ -63,6 +64,7 @@ struct MaterialData {
   Casting casting;
   std::optional<Gas> gas;
   std::optional<Graphite> graphite;
+  std::vector<LocalLaw> local_laws;
   MaterialSpreads spread;
   SourceLocation where;
 };

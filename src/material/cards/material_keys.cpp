@@ -174,6 +174,40 @@ Section<Graphite> graphite_keys() {
   return s;
 }
 
+Section<LocalLaw> local_keys() {
+  // First the measures of how the metal froze, of which one is given, then the values along it.
+  Section<LocalLaw> s("local",
+                      "Strength, elongation, hardness and grain size by where the metal froze, as measured "
+                      "on castings (docs/theory/local_properties.md).");
+  s.quantity("section", &LocalLaw::section, "m")
+      .initially(Value::list())
+      .doc(
+          "Thicknesses of the wall for which the values hold, rising; a place of a casting counts by "
+          "plate_thickness. This, arm_spacing or cooling_rate. Between the values a power law is taken, "
+          "beyond them nothing is said.");
+  s.quantity("arm_spacing", &LocalLaw::arm_spacing, "m")
+      .initially(Value::list())
+      .doc("Secondary arm spacings for which the values hold, rising.");
+  s.quantity("cooling_rate", &LocalLaw::cooling_rate, "K/s")
+      .initially(Value::list())
+      .doc("Cooling rates near the end of freezing for which the values hold, rising.");
+  s.quantity("tensile_strength", &LocalLaw::tensile_strength, "Pa")
+      .initially(Value::list())
+      .doc("Tensile strength there.");
+  s.key("elongation", &LocalLaw::elongation)
+      .initially(Value::list())
+      .doc("Elongation at fracture there, as a share: 0.07 is 7 per cent.");
+  s.key("hardness", &LocalLaw::hardness).initially(Value::list()).doc("Brinell's number there.");
+  s.quantity("grain_size", &LocalLaw::grain_size, "m").initially(Value::list()).doc("Size of grains there.");
+  s.key("spread", &LocalLaw::spread)
+      .initially(0.0)
+      .range(0, 1)
+      .doc("Half width of the range that holds most measured values, as a share of the value.");
+  s.key("source", &LocalLaw::source).doc("Where the data come from.");
+  s.place(&LocalLaw::where);
+  return s;
+}
+
 void liquid_keys(Section<MaterialData>& s) {
   std::vector<Section<MaterialData>::Choice<LiquidModel>> models;
   for (const LiquidLaw* law : liquid_laws())
@@ -290,6 +324,7 @@ Section<MaterialData> material_keys() {
   s.section("casting", &MaterialData::casting, casting_keys());
   s.section("gas", &MaterialData::gas, gas_keys());
   s.section("graphite", &MaterialData::graphite, graphite_keys());
+  s.sections("local", &MaterialData::local_laws, local_keys());
   s.section("spread", &MaterialData::spread, material_spread_keys());
   s.place(&MaterialData::where);
   return s;

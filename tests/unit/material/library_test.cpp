@@ -42,7 +42,7 @@ TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRa
           change || note.property == "density" || note.property == "poisson_ratio" ||
           note.property == "twice_shear_viscosity" || note.property == "plasticity.rate_exponent" ||
           note.property == "plasticity.drag_stress" || note.property == "casting" || note.property == "gas" ||
-          note.property == "graphite" || note.property == "granular";
+          note.property == "graphite" || note.property == "granular" || note.property == "local";
       EXPECT_TRUE(always || note.valid_to > note.valid_from) << name << " " << note.property;
     }
     const EnthalpyCurve h = m.enthalpy();
