@@ -51,6 +51,13 @@ TEST(PhaseFraction, ThePlateauShareTellsHowMuchOfAnIsothermalChangeIsDone) {
   }
 }
 
+TEST(PhaseFraction, TheIsothermalShareIsThatOfAllJumps) {
+  EXPECT_DOUBLE_EQ(
+      PhaseFraction::table({{850, 1}, {850, 0.5}, {870, 0.4}, {870, 0.2}, {900, 0}}).isothermal_share(), 0.7);
+  EXPECT_EQ(PhaseFraction::linear(900, 900).isothermal_share(), 1);
+  EXPECT_EQ(PhaseFraction::linear(800, 900).isothermal_share(), 0);
+}
+
 TEST(PhaseFraction, TableTakesBothDirectionsAndAnIsothermalPart) {
   const auto rising = PhaseFraction::table({{850, 1}, {850, 0.5}, {880, 0.2}, {888, 0}});
   const auto falling = PhaseFraction::table({{888, 0}, {880, 0.2}, {850, 0.5}, {850, 1}});
