@@ -26,7 +26,8 @@ class ExpectedSteps(ProgramTest):
 class StatedErrors(ProgramTest):
     # Two of the castings of the nightly run.
     def test_cover_the_errors_of_castings(self):
-        for name, answers in (("nodular_iron_sand", 5), ("alsi10mg_die", 5)):
+        # The iron's graphite closes every pore, so that it has no such answer.
+        for name, answers in (("nodular_iron_sand", 4), ("alsi10mg_die", 5)):
             found = list(castings.stated(PROGRAM, self.folder, name))
             self.assertEqual(len(found), answers, name)
             for answer, value, stated, error in found:
