@@ -6,7 +6,7 @@
 /// linker finds them first; they hand one vector to `dgemv` and `dtrsv`, and all else to the library. Nothing
 /// calls them by name: the build asks the linker for them (decision 0097).
 #include <dlfcn.h>
-#include <petscblaslapack.h>
+#include <petscsys.h>
 
 #include <cctype>
 
@@ -36,6 +36,8 @@ Function* behind(const char* name) {
 
 extern "C" {
 
+void dgemv_(const char* trans, const Int* m, const Int* n, const double* alpha, const double* a,
+            const Int* lda, const double* x, const Int* incx, const double* beta, double* y, const Int* incy);
 void dtrsv_(const char* uplo, const char* trans, const char* diag, const Int* n, const double* a,
             const Int* lda, double* x, const Int* incx);
 
