@@ -139,10 +139,13 @@ linear::LinearReport SaddleSolver::solve(linear::BlockMatrix&, std::span<const d
 linear::LinearReport SaddleSolver::solve_with_old_factors(std::span<const double> b, double forcing) {
   linear::LinearReport report;
   report.converged = false;
-  if (!choice_.direct || !choice_.made) return report;
+  if (choice_.made && !choice_.direct) return report;
+  // The size of the right-hand side is noted by every solve, the first after forget() too: what follows it
+  // must not depend on what was before.
   double square = 0;
   for (const double value : b) square += value * value;
-  if (!factors_.may_serve(std::sqrt(parallel::global_sum(square)))) return report;
+  const bool may_serve = factors_.may_serve(std::sqrt(parallel::global_sum(square)));
+  if (!may_serve || !choice_.made || !choice_.direct) return report;
   // The operator is the tangent of now, by its blocks, so that it need not be copied for PETSc.
   factors_.keep();
   outer_.factorised->set_operator(outer_.matrix->matrix());
