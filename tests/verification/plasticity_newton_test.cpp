@@ -118,10 +118,12 @@ TEST(NewtonWithPlasticity, ConvergesAtSecondOrderInEveryElementAndHardening) {
       printf("\n");
       EXPECT_GT(march.report().work.dissipation, 0);
       // A factor C of r_{k+1} = C r_k² of about ten moves the measure by log C/log r_k, 0.2 at 1e-5. Where
-      // factors of an iteration before precondition (mixed tetrahedra), linear systems are solved as far as
-      // an iteration gains by, which is of order 1.62 (forcing.hpp).
-      EXPECT_GE(exponent(residuals), std::string_view(element.name) == "tet4" ? 1.55 : 1.7)
-          << element.name << ", " << name(kind);
+      // factors of an iteration before precondition (mixed simplices), linear systems are solved as far as
+      // an iteration gains by, which is of order 1.62 (forcing.hpp), and after an iteration that was better
+      // than that less.
+      const std::string_view shape(element.name);
+      const bool mixed = shape.starts_with("tet4") || shape.starts_with("tri3");
+      EXPECT_GE(exponent(residuals), mixed ? 1.4 : 1.7) << element.name << ", " << name(kind);
       sum += exponent(residuals);
       ++n;
     }
