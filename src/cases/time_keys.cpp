@@ -39,10 +39,10 @@ void error_control_keys(Section<TimeSpec>& s) {
   s.key("solid_fraction_change", &TimeSpec::solid_fraction_change)
       .range(1e-4, 1)
       .doc(
-          "Change in an adaptive step of the solid share of the volume that can melt; without it 0.1, and "
-          "where bodies deform 0.013 over the share that freezes at one temperature, 0.016 where the casting "
-          "expands as it freezes (both times the root of displacement_error over its default, and at most "
-          "0.1).");
+          "Change in an adaptive step of the solid share of the volume that can melt; without it 0.1 with "
+          "heat alone; where bodies deform 0.013 over the share that freezes at one temperature, but at most "
+          "0.1, and 0.016 where the casting expands as it freezes, both times the root of displacement_error "
+          "over its default.");
   s.key("skin_change", &TimeSpec::skin_change)
       .range(1e-3, 1)
       .doc(

@@ -22,7 +22,7 @@ class PairHeat {
   PairHeat(std::unique_ptr<ContactHeat> heat, const ContactGeometry& geometry, ContactForces& forces,
            ContactStep& step, ContactEnd& end);
 
-  /// What mechanical passes hand to it; null without a heat law.
+  /// The heat of the points, to which mechanical passes hand theirs; null without a heat law.
   ContactHeat* of_points() const { return heat_.get(); }
   /// The term of the thermal phase, with the configuration of the last update(); null without a heat law.
   linear::Contribution* term() const { return heat_ ? &heat_->term() : nullptr; }

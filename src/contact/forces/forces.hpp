@@ -34,7 +34,7 @@ class ContactForces : Pinned {
   const MechanicsTerm& term() const { return term_; }
   /// Whether the derivative of the term is symmetric.
   bool symmetric() const { return symmetric_; }
-  /// What holds penetrations small, by Augmentations.
+  /// The multipliers that Augmentations update, so that penetrations stay small.
   AugmentedLagrangian& multipliers() { return multipliers_; }
   const AugmentedLagrangian& multipliers() const { return multipliers_; }
 

@@ -33,7 +33,7 @@ namespace solidus::contact {
 /// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
 class MechanicsTerm : public linear::Contribution {
  public:
-  /// What its tangents hold beside the derivative of the forces. Forces, and so the solution, do not know it.
+  /// Its tangents get this in addition to the derivative of the forces; forces, and so the solution, do not.
   class Stabilisation {
    public:
     /// @param amount  as the pair gives it, a share of the penalty (ContactParameters)
@@ -48,7 +48,7 @@ class MechanicsTerm : public linear::Contribution {
     /// Another tangent of the iteration.
     void next();
     bool none() const { return amount_ == 0; }
-    /// Of a point of this weight, as a share of the penalty, in this tangent.
+    /// The share of the penalty that this tangent gets at a point of this weight.
     double of(double weight) const { return weight * times_ * amount_ * left_; }
 
    private:
@@ -56,7 +56,7 @@ class MechanicsTerm : public linear::Contribution {
     int n_tangents_ = 0;  ///< of this iteration
   };
 
-  /// What the last residual has met.
+  /// The last residual found these changes and failures of points.
   struct Outcome {
     Index changes = 0;  ///< points that changed between open, sticking and slipping since the one before
     FrictionStatus failure = FrictionStatus::converged;  ///< the first one of the friction law
@@ -110,7 +110,7 @@ class MechanicsTerm : public linear::Contribution {
   bool follows_weights_ = false;
   mutable int version_ = 0;  ///< of the graph it has
   SlotCache slots_;
-  /// Of the blocks that couple forces with temperatures.
+  /// Places in a matrix of the blocks that couple forces with temperatures.
   struct CoupledSlots {
     SlotCache slots;
     const linear::BlockMatrix* matrix = nullptr;  ///< that they know
