@@ -20,17 +20,20 @@ struct StructuralPartials {
   StatePartials<T> entropy, internal_energy;
 };
 
-/// @param p      along_lines, or thermal_properties with the phase frozen
-/// @param solid  where a:a counts
+/// @param elastic     elastic_along, or those of thermal_properties with the phase frozen
+/// @param parameters  of the flow rule: hardening_along, or those of thermal_properties; null where nothing
+///                    has hardened
+/// @param solid       where a:a counts
 template <class T, class Mask>
-StructuralPartials<T> structural_partials(const Material& material, const Viscoplastic::Properties<Jet<T>>& p,
-                                          const T& temperature, const T& trace, const T& elastic_squared,
-                                          const Mask& solid, const T& hardening, const T& back_squared) {
+StructuralPartials<T> structural_partials(const Material& material, const PointProperties<Jet<T>>& elastic,
+                                          const FlowProperties<Jet<T>>* parameters, const T& temperature,
+                                          const T& trace, const T& elastic_squared, const Mask& solid,
+                                          const T& hardening, const T& back_squared) {
   using J = Jet<T>;
   const T zero(0.0);
-  const J &k = p.elastic.bulk, &g = p.elastic.shear;
-  const J pull = k * p.elastic.thermal_strain;
-  const J volumetric = volumetric_energy(material, k, p.elastic.thermal_strain, trace);
+  const J &k = elastic.bulk, &g = elastic.shear;
+  const J pull = k * elastic.thermal_strain;
+  const J volumetric = volumetric_energy(material, k, elastic.thermal_strain, trace);
   const T squared = select(solid, elastic_squared, zero);
 
   StructuralPartials<T> r;
@@ -44,11 +47,11 @@ StructuralPartials<T> structural_partials(const Material& material, const Viscop
   e.strain_trace = k.v * trace - pull.v;
   e.elastic_squared = select(solid, g.v, zero);
   e.hardening = e.back_squared = zero;
-  if (material.flow && any(hardening > zero)) {  // K, K_ξ and ζ vanish with ξ
+  if (parameters != nullptr) {  // K, K_ξ and ζ vanish with ξ
     const Flow& flow = *material.flow;
     if (flow.isotropic != IsotropicHardening::none) {
-      const J stored = hardening_energy<J>(flow.isotropic, flow.curves, p.flow, J(hardening));
-      const J stress = hardening_stress<J>(flow.isotropic, flow.curves, p.flow, J(hardening)).stress;
+      const J stored = hardening_energy<J>(flow.isotropic, flow.curves, *parameters, J(hardening));
+      const J stress = hardening_stress<J>(flow.isotropic, flow.curves, *parameters, J(hardening)).stress;
       s.value -= stored.d;
       s.temperature -= stored.dd;
       s.hardening = zero - stress.d;
@@ -56,7 +59,7 @@ StructuralPartials<T> structural_partials(const Material& material, const Viscop
       e.hardening = stress.v;
     }
     if (flow.kinematic != KinematicHardening::none) {
-      const J third = J(T(1.0 / 3.0)) * p.flow.kinematic_modulus;
+      const J third = J(T(1.0 / 3.0)) * parameters->kinematic_modulus;
       s.value -= third.d * back_squared;
       s.temperature -= third.dd * back_squared;
       s.back_squared = zero - third.d;

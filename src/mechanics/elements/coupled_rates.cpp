@@ -29,10 +29,12 @@ CoupledRates coupled_rates(const CoupledUpdate& at, std::optional<StructuralForm
   const material::Material& material = at.law.material();
   // The structural parts are those of the lines along which the tables are continued in this step.
   const auto& now = at.point.now;
+  const auto elastic =
+      material::elastic_along(material, at.point.lines, at.temperature, at.point.strain_offset);
+  const auto flow =
+      material::hardening_along(material, now.hardening, at.point.lines.temperature, at.temperature);
   const auto partials = material::structural_partials<Lane>(
-      material,
-      material::along_lines(material, at.point.line_temperature, at.temperature, at.point.strain_offset),
-      at.temperature, now.strain_trace, now.elastic_squared,
+      material, elastic, flow ? &*flow : nullptr, at.temperature, now.strain_trace, now.elastic_squared,
       at.properties.elastic.solid_fraction.v >= Lane(1.0), now.hardening, now.back_squared);
   const Lane rate(1.0 / at.dt);
   // Energy form: the heat is [E − E_n − σ at work : Δε]/Δt. With a Taylor–Quinney factor what is stored as

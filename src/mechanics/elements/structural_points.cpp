@@ -49,7 +49,8 @@ void StructuralPoints::set_temperature(Index batch, int point, Lane temperature,
                                        Lane thermal_strain) {
   if (!kept()) return;
   Point& p = at(batch, point);
-  p.line_temperature = p.temperature = temperature;
+  p.temperature = temperature;
+  p.lines = material::elastic_lines(material_, temperature);
   p.pass_temperature = pass_temperature;
   const Lane reference(material_.expansion_reference);
   p.strain_offset = thermal_strain - properties_at(material_, pass_temperature, reference).thermal_strain;
@@ -57,15 +58,23 @@ void StructuralPoints::set_temperature(Index batch, int point, Lane temperature,
 
 StructuralPoints::State StructuralPoints::state(const Point& at, const Deformation& deformation,
                                                 Lane temperature) const {
-  return state(at.line_temperature, at.strain_offset, deformation, temperature);
+  return state(at.lines, at.strain_offset, deformation, temperature);
 }
 
-StructuralPoints::State StructuralPoints::state(Lane line_temperature, Lane strain_offset,
+StructuralPoints::State StructuralPoints::state(const StructuralBase& base, const Deformation& deformation,
+                                                Lane temperature) const {
+  return state(material::elastic_lines(material_, base.line_temperature), base.strain_offset, deformation,
+               temperature);
+}
+
+StructuralPoints::State StructuralPoints::state(const material::ElasticLines<Lane>& lines, Lane strain_offset,
                                                 const Deformation& deformation, Lane temperature) const {
+  const auto flow =
+      material::hardening_along(material_, deformation.hardening, lines.temperature, temperature);
   const auto partials = material::structural_partials<Lane>(
-      material_, material::along_lines(material_, line_temperature, temperature, strain_offset), temperature,
-      deformation.strain_trace, deformation.elastic_squared, deformation.elastic_squared >= Lane(0.0),
-      deformation.hardening, deformation.back_squared);
+      material_, material::elastic_along(material_, lines, temperature, strain_offset),
+      flow ? &*flow : nullptr, temperature, deformation.strain_trace, deformation.elastic_squared,
+      deformation.elastic_squared >= Lane(0.0), deformation.hardening, deformation.back_squared);
   return {partials.entropy.value, partials.internal_energy.value + deformation.cold_work,
           partials.internal_energy.temperature};
 }
@@ -84,7 +93,7 @@ void StructuralPoints::set_old(Index batch, int point, const Deformation& deform
     p.transformed = Lane(0.0);
     return;
   }
-  const State old = state(base.line_temperature, base.strain_offset, deformation, p.temperature);
+  const State old = state(base, deformation, p.temperature);
   p.old_entropy = old.entropy + ahead.entropy;
   p.old_energy = old.internal_energy + ahead.energy;
   const Lane entropy = opened.entropy - old.entropy;
@@ -100,13 +109,13 @@ Lane StructuralPoints::entropy_ahead(Index batch, int point, const Deformation& 
                                      const StructuralBase& old) const {
   if (!kept() || !carries_energy()) return Lane(0.0);
   const Point& p = at(batch, point);
-  return state(old.line_temperature, old.strain_offset, deformation, p.pass_temperature).entropy -
+  return state(old, deformation, p.pass_temperature).entropy -
          state(p, deformation, p.pass_temperature).entropy;
 }
 
 StructuralBase StructuralPoints::base(Index batch, int point, const LaneMask& solid) const {
   const Point& p = at(batch, point);
-  return {p.line_temperature, p.strain_offset, select(solid, Lane(1.0), Lane(0.0))};
+  return {p.lines.temperature, p.strain_offset, select(solid, Lane(1.0), Lane(0.0))};
 }
 
 StructuralBase StructuralPoints::initial_base(Lane initial_temperature) const {
@@ -121,7 +130,7 @@ void StructuralPoints::hold_deformation(Index batch, int point, const Deformatio
   if (!kept()) return;
   Point& p = at(batch, point);
   if (carries_energy()) {
-    p.line_temperature = base.line_temperature;
+    p.lines = material::elastic_lines(material_, base.line_temperature);
     p.strain_offset = base.strain_offset;
   }
   p.now = deformation;
@@ -135,8 +144,8 @@ void StructuralPoints::expect_expansion() {
   expansion_.resize(n_points_);
   for (std::size_t i = 0; i < n_points_; ++i) {
     const Point& at = points_[i];
-    const auto line = material::along_lines(material_, at.line_temperature, at.temperature, at.strain_offset);
-    const Jet<Lane>&k = line.elastic.bulk, &expansion = line.elastic.thermal_strain;
+    const auto elastic = material::elastic_along(material_, at.lines, at.temperature, at.strain_offset);
+    const Jet<Lane>&k = elastic.bulk, &expansion = elastic.thermal_strain;
     const Lane slope = k.d * (at.now.strain_trace - expansion.v) - k.v * expansion.d;  // ∂p/∂Θ
     const Lane capacity = Lane(material_.density) * material_.specific_heat.value(at.temperature) +
                           state(at, at.now, at.temperature).capacity;
@@ -202,23 +211,26 @@ StructuralPoints::Stage StructuralPoints::stage(const linear::RungeKuttaStage& s
 /// H^ep Δt at t_{n+1} [J/m³] (2.127b).
 StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, Lane temperature) const {
   using J = Jet<Lane>;
-  const auto p = material::along_lines(material_, at.line_temperature, temperature, at.strain_offset);
-  const J &k = p.elastic.bulk, &g = p.elastic.shear, pull = k * p.elastic.thermal_strain;
+  const auto p = material::elastic_along(material_, at.lines, temperature, at.strain_offset);
+  const J &k = p.bulk, &g = p.shear, pull = k * p.thermal_strain;
   const Lane two(2.0);
   // ∂σ/∂Θ : Δε^E and its derivative.
   Lane stress_theta =
       (k.d * at.now.strain_trace - pull.d) * at.change.strain_trace + two * g.d * at.change.elastic_squared;
   Lane stress_theta2 = (k.dd * at.now.strain_trace - pull.dd) * at.change.strain_trace +
                        two * g.dd * at.change.elastic_squared;
-  if (material_.flow) {  // −∂q/∂Θ of both hardening forces
+  // −∂q/∂Θ of both hardening forces.
+  if (const auto parameters =
+          material::hardening_along(material_, at.now.hardening, at.lines.temperature, temperature)) {
     const material::Flow& flow = *material_.flow;
     if (flow.isotropic != material::IsotropicHardening::none) {
-      const J stress = hardening_stress<J>(flow.isotropic, flow.curves, p.flow, J(at.now.hardening)).stress;
+      const J stress =
+          hardening_stress<J>(flow.isotropic, flow.curves, *parameters, J(at.now.hardening)).stress;
       stress_theta += stress.d * at.change.hardening;
       stress_theta2 += stress.dd * at.change.hardening;
     }
     if (flow.kinematic != material::KinematicHardening::none)
-      stress_theta += Lane(2.0 / 3.0) * p.flow.kinematic_modulus.d * at.change.back_squared;
+      stress_theta += Lane(2.0 / 3.0) * parameters->kinematic_modulus.d * at.change.back_squared;
   }
   return {-temperature * stress_theta, -stress_theta - temperature * stress_theta2};
 }

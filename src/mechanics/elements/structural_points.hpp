@@ -6,7 +6,7 @@
 
 #include "linear/contribution.hpp"
 #include "linear/lane_slots.hpp"
-#include "material/elasticity.hpp"
+#include "material/derivatives/structural_lines.hpp"
 #include "mechanics/state/structural_change.hpp"
 #include "mechanics/state/structural_lead.hpp"
 #include "mesh/block_geometry.hpp"
@@ -49,9 +49,9 @@ class StructuralPoints {
   };
 
   struct Point {
-    Lane
-        line_temperature;  ///< Θ of the lines: Θ_n, or as in StructuralBase where the deformation is held [K]
-    Lane temperature;      ///< Θ_n [K]
+    /// The tables' lines at Θ_n, or at the temperature of StructuralBase where the deformation is held.
+    material::ElasticLines<Lane> lines;
+    Lane temperature;       ///< Θ_n [K]
     Lane pass_temperature;  ///< at the end of the mechanical phase: the one it holds, or Θ̄ [K]
     Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
                          ///< (4.81)
@@ -170,7 +170,8 @@ class StructuralPoints {
     Lane entropy, internal_energy, capacity;
   };
   State state(const Point& at, const Deformation& deformation, Lane temperature) const;
-  State state(Lane line_temperature, Lane strain_offset, const Deformation& deformation,
+  State state(const StructuralBase& base, const Deformation& deformation, Lane temperature) const;
+  State state(const material::ElasticLines<Lane>& lines, Lane strain_offset, const Deformation& deformation,
               Lane temperature) const;
   /// The same of Point::now, with what expansion is expected to take up.
   State state_now(std::size_t point, Lane temperature) const;

@@ -228,8 +228,9 @@ TEST(StructuralPartials, AlongTheUpdateAreTheDerivativesOfEntropyAndEnergy) {
             const Variation<double> update(law, p, start, strain, 0.5, r);
             const Sym<double> elastic = dev(strain - r.state.viscous_strain - r.state.plastic_strain);
             const auto partials =
-                structural_partials(law.material(), p, theta, trace(strain), dot(elastic, elastic), true,
-                                    r.state.hardening, dot(r.state.back_strain, r.state.back_strain));
+                structural_partials(law.material(), p.elastic, law.material().flow ? &p.flow : nullptr, theta,
+                                    trace(strain), dot(elastic, elastic), true, r.state.hardening,
+                                    dot(r.state.back_strain, r.state.back_strain));
 
             const Ad theta_ad(theta, 7, k_theta);
             Sym<Ad> strain_ad;
