@@ -167,6 +167,14 @@ class Chosen(unittest.TestCase):
                                  "--gate=0 mm, 0 mm, 1 mm", "--as=a=core", "p.step"])
         self.assertIn('foot = ["0 mm", "10 mm", "20 mm"]', choices.feeders_text(chosen))
 
+    def test_a_riser_next_to_the_part_keeps_where_its_neck_leads(self):
+        riser = {"name": "aside", "foot": [0.1, 0, 0], "diameter": 0.03, "height": 0.06, "neck_diameter": 0.02, "neck_to": [0.05, 0, 0.01]}
+        chosen = choices.checked({"riser": "placed", "risers": [riser]})
+        self.assertEqual(chosen["risers"], [riser])
+        self.assertIn('neck_to = ["50 mm", "0 mm", "10 mm"]', choices.feeders_text(chosen))
+        with self.assertRaisesRegex(InputError, "aside: neck_to"):
+            choices.checked({"risers": [{**riser, "neck_to": [0, 1]}]})
+
     def test_what_is_of_another_kind_is_refused(self):
         for wrong in ({"alloy": 3}, {"process": "magic"}, {"fineness": float("nan")}, {"roles": {"a": "king"}}, {"risers": [{"foot": [1, 2]}]},
                       {"risers": "x"}, {"gate": [0, 0, "1"]}, {"other": 1}, [], {"alloy": "a\nb"}):

@@ -109,6 +109,43 @@ async function ofAHeldButton(server, desk) {
   await desk.until("solidus.state.case.document.title !== 'changed while a button is held'");
 }
 
+/** Conditions on a face by clicking: what the file says then, values that are typed, and what goes with one that is taken away. */
+async function ofConditions(server, desk) {
+  await desk.click("#to-view-tab");
+  await desk.page.run("solidus.stage.picture.look([0.55, -0.75, 0.45])");
+  const top = [0.02, 0.03, 0.03];  // on the upper face of the block
+  const before = file();
+  for (const [kind, name] of [["film", "film_1"], ["radiation", "radiation_1"], ["flux", "flux_1"], ["temperature", "temperature_1"]]) {
+    await desk.clickPlace(top);
+    if (kind === "film") check("a case of heat alone takes no supports", await desk.page.run("['held', 'guided', 'pressure'].every((id) => document.querySelector(`#place-${id}`).title === 'this case computes heat alone')"));
+    await desk.click(`#place-${kind}`);
+    await desk.until(`(solidus.state.case.document.thermal_condition ?? []).some((c) => c.name === '${name}' && c.kind === '${kind}') && !!document.querySelector('#condition-${name}')`);
+  }
+  const { document } = (await server.state()).case, group = document.mesh.group.find((g) => g.name === "temperature_1");
+  check("a condition lies on the face that was clicked, of the body's group", group.owner === "block" && group.nearest.every((text, i) => Math.abs(parseFloat(text) - 1e3 * top[i]) < 0.1), group);
+  check("its value waits for what is typed", await desk.page.run("document.activeElement.ariaLabel") === "temperature_1: temperature");
+  await desk.type("#condition-temperature_1 input", "300 degC");
+  await desk.until("solidus.state.case.document.thermal_condition.find((c) => c.name === 'temperature_1').temperature === '300 degC'");
+  await desk.type("#condition-radiation_1 input", "0.4");
+  await desk.until("solidus.state.case.document.thermal_condition.find((c) => c.name === 'radiation_1').emissivity === 0.4");
+  check("numbers stay numbers, and texts texts", file().includes("emissivity = 0.4\n") && file().includes('temperature = "300 degC"\n'));
+  await desk.click("#check");
+  await server.rest();
+  const checked = (await server.state()).check;
+  check("the case with all of them is in order", checked.current && checked.error === null && /temperature_1 \(casting\)/.test(checked.text), checked);
+  // The film is taken away with its group; what is undone comes back with it.
+  await desk.click("#condition-film_1 legend button:last-child");
+  await desk.until("!document.querySelector('#condition-film_1') && !solidus.state.case.document.mesh.group.some((g) => g.name === 'film_1')");
+  await desk.click("#undo");
+  await desk.until("!!document.querySelector('#condition-film_1') && solidus.state.case.document.mesh.group.some((g) => g.name === 'film_1')");
+  for (let step = 0; step < 6; ++step) {
+    const { undo } = await server.state();
+    await desk.click("#undo");
+    await desk.until(`solidus.state.undo === ${undo - 1}`);
+  }
+  check("a condition and its group go and come as one step, and all is undone", file() === before, file());
+}
+
 /** A key that is wrong, what check says, and undo. */
 async function ofMistakes(server, desk) {
   await desk.choose("#add-key", "until");
@@ -196,6 +233,13 @@ async function ofAPart(server, desk) {
   check("a gate lies where one clicked", Math.hypot(...(await server.state()).choices.gate.map((v, i) => v - side.place[i])) < 1e-3);
   await desk.clickPlace(side.place);
   await desk.until("document.querySelector('#place-symmetry')?.textContent === 'Whole again'");
+  await desk.click("#place-beside");
+  await desk.until("solidus.state.choices.risers.length === 2");
+  const beside = (await server.state()).choices.risers[1], deepest = beside.neck_to[0] - side.place[0];
+  check("a riser stands next to the part, and its neck leads into the metal", deepest > 0 && deepest <= beside.diameter / 2 + 1e-6 && side.place[0] - beside.foot[0] > beside.diameter / 2 && beside.neck_diameter < beside.diameter, beside);
+  check("its neck has fields, and no sleeve that would cut it", await desk.page.run("!!document.querySelector('#riser-1-neck') && !!document.querySelector('#riser-1-to-z') && !document.querySelector('#riser-1-sleeve')"));
+  await desk.click("#undo");
+  await desk.until("solidus.state.choices.risers.length === 1");
   await desk.click("#undo");
   await desk.click("#undo");
   await desk.until("solidus.state.choices.gate === null && solidus.state.choices.symmetry === ''");
@@ -222,6 +266,7 @@ try {
   const desk = await Desk.open(browser, server.address);
   await ofACase(server, desk);
   await ofAHeldButton(server, desk);
+  await ofConditions(server, desk);
   await ofMistakes(server, desk);
   await ofPages(server, browser, desk);
   await ofAPart(server, desk);

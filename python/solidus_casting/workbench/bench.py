@@ -171,9 +171,10 @@ class Bench:
                 text = toml_edit.with_section(text, toml_edit.path_of(section.get("path")), section["values"])
             case.change(text=text)
 
-    def remove(self, seen: int, path: Any) -> None:
+    def remove(self, seen: int, paths: Any) -> None:
+        """Takes keys, sections and entries of lists away, in this order, as one step."""
         with self._edit(seen) as case:
-            case.change(text=toml_edit.without(self._text_of(case), toml_edit.path_of(path)))
+            case.change(text=toml_edit.without_all(self._text_of(case), paths))
 
     def go(self, seen: int, by: int) -> None:
         with self._edit(seen) as case:

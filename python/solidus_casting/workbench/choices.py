@@ -79,7 +79,8 @@ def _name(entry: Mapping[str, Any], name: str) -> str:
 def _riser(entry: Mapping[str, Any], number: int) -> dict[str, Any]:
     name = _name(entry, f"riser_{number}")
     sizes = {key: _number(entry[key], f"{name}: {key}") for key in _LENGTHS if entry.get(key)}
-    return {"name": name, "foot": _point(entry.get("foot"), f"{name}: foot"), **sizes}
+    beside = {"neck_to": _point(entry["neck_to"], f"{name}: neck_to")} if entry.get("neck_to") is not None else {}
+    return {"name": name, "foot": _point(entry.get("foot"), f"{name}: foot"), **sizes, **beside}
 
 
 def _chill(entry: Mapping[str, Any], number: int) -> dict[str, Any]:
@@ -103,7 +104,8 @@ def place_text(point: list[float]) -> list[str]:
 def feeders_text(choices: Choices) -> str:
     """The file of risers and chills that ``new --riser FILE`` reads."""
     risers = [{"name": riser["name"], "foot": place_text(riser["foot"]),
-               **{key: millimetres(riser[key]) for key in _LENGTHS if key in riser}} for riser in choices["risers"]]
+               **{key: millimetres(riser[key]) for key in _LENGTHS if key in riser},
+               **({"neck_to": place_text(riser["neck_to"])} if "neck_to" in riser else {})} for riser in choices["risers"]]
     chills = [{"name": chill["name"], "lowest": place_text(chill["lowest"]), "highest": place_text(chill["highest"])}
               for chill in choices["chills"]]
     return document_text({name: entries for name, entries in (("riser", risers), ("chill", chills)) if entries})

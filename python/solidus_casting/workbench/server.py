@@ -188,7 +188,7 @@ class _Request(BaseHTTPRequestHandler):
             "text": lambda: bench.set_text(seen, given.get("text")),
             "set": lambda: bench.set_key(seen, given.get("path"), given.get("value")),
             "add": lambda: bench.add_sections(seen, given.get("sections")),
-            "remove": lambda: bench.remove(seen, given.get("path")),
+            "remove": lambda: bench.remove(seen, given["paths"] if "paths" in given else [given.get("path")]),
             "undo": lambda: bench.go(seen, -1),
             "redo": lambda: bench.go(seen, 1),
             "make": lambda: bench.make(seen),

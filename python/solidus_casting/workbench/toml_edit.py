@@ -232,6 +232,15 @@ def without(text: str, path: Sequence[Any]) -> str:
     return _verified("\n".join(line for number, line in enumerate(lines) if number not in gone), expected)
 
 
+def without_all(text: str, paths: Any) -> str:
+    """The text without several of these, one after the other. Raises :class:`InputError`, also where `paths` is no list of paths."""
+    if not isinstance(paths, list) or not paths:
+        raise InputError(f"{paths!r} is no list of paths", "what is to be taken away")
+    for path in paths:
+        text = without(text, path_of(path))
+    return text
+
+
 def _comments_above(lines: list[str], header: int) -> Iterator[int]:
     """Comments that are directly above a header belong to it, with an empty line above them."""
     number = header - 1

@@ -20,7 +20,7 @@ const CREASE = Math.cos((38 * Math.PI) / 180);
 const nextCorner = (i: number): number => (i % 3 === 2 ? i - 2 : i + 1);
 
 /** For each edge, named by the corner where it begins in its triangle, the same edge of the neighbour; -1 where it has none. */
-function partners(skin: Uint32Array, n: number): Int32Array {
+export function partners(skin: Uint32Array, n: number): Int32Array {
   const least = (i: number) => Math.min(skin[i], skin[nextCorner(i)]), most = (i: number) => Math.max(skin[i], skin[nextCorner(i)]);
   const first = new Uint32Array(n + 1); // edges in the order of their lesser node
   for (let i = 0; i < skin.length; ++i) ++first[least(i) + 1];

@@ -38,10 +38,20 @@ export class Painter {
     return this.cost > SLOW;
   }
 
-  /** Draws a draft where pictures are slow and something is `moving`; `settle` is called when it is time for the picture. */
-  paint(scene: Scene, camera: Camera, moving: boolean, settle: () => void): void {
+  /** Whether the last picture has shown that the machine draws another one for every move; not before a picture was timed. */
+  get quick(): boolean {
+    return this.cost > 0 && !this.slow;
+  }
+  /** What is drawn has changed: the next picture says anew how long one takes. */
+  forget(): void {
+    this.cost = 0;
+  }
+
+  /** Draws a draft where pictures are slow and something is `moving`, and where only a `rough` copy is drawn; `settle` is called when it is
+   * time for the picture. */
+  paint(scene: Scene, camera: Camera, moving: boolean, settle: () => void, rough = false): void {
     clearTimeout(this.rest);
-    const draft = moving && this.slow;
+    const draft = rough || (moving && this.slow);
     this.setRatio(draft ? this.ratio / 2 : this.ratio);
     if (draft || this.pictures++ === 0) {
       this.renderer.render(scene, camera);

@@ -32,6 +32,30 @@ export function riserAt(body: SkinBody, at: Pick, name: string): Riser {
   return { name, foot: [at.place[0], at.place[1], foot], diameter, height: millimetre(1.5 * diameter + neck), ...(neck > 1e-4 ? { neck_height: neck } : {}) };
 }
 
+/** Sand between a riser next to the part and the part, width of its neck and its metal below the neck, of its diameter: as `solidus design` has them. */
+const GAP = 0.15, NECK = 0.7, BELOW = 0.1;
+
+/** Whether a riser can stand next to a face: it looks to the side. */
+export function looksAside(at: Pick): boolean {
+  return Math.abs(at.normal[2]) < 0.7;
+}
+
+/** A riser next to the part. The metal behind the face has a thickness along the level and one upright: the lesser is the riser's diameter, and
+ * the neck leads to the middle of it; the riser stands one and a half diameters above that. */
+export function riserBeside(body: SkinBody, at: Pick, name: string): Riser {
+  const level = Math.hypot(at.normal[0], at.normal[1]), out: Place = [at.normal[0] / level, at.normal[1] / level, 0];
+  const least = 1e-5 * Math.hypot(...[0, 1, 2].map((i) => body.high[i] - body.low[i]));
+  const deep = cross(body, at.place, out.map((v) => -v) as Place, least)?.far ?? thickness(body, at);
+  const inside = at.place.map((v, i) => v - 0.5 * deep * out[i]) as Place;
+  const up = cross(body, inside, [0, 0, 1], 0)?.far ?? deep / 2, down = cross(body, inside, [0, 0, -1], 0)?.far ?? deep / 2;
+  const diameter = millimetre(Math.min(deep, up + down)), middle = at.place[2] + (up - down) / 2;
+  const from = (way: number, z: number): Place => [at.place[0] + way * out[0], at.place[1] + way * out[1], z];
+  return {
+    name, diameter, foot: from((GAP + 0.5) * diameter, middle - (0.5 * NECK + BELOW) * diameter), height: millimetre((1.5 + 0.5 * NECK + BELOW) * diameter),
+    neck_diameter: millimetre(NECK * diameter), neck_to: from(-0.5 * Math.min(deep, diameter), middle),
+  };
+}
+
 /** A block as wide as the metal is thick and half as deep, that reaches a quarter of it into the part. */
 export function chillAt(body: SkinBody, at: Pick, name: string): Chill {
   const thick = thickness(body, at), half = millimetre(thick / 2);

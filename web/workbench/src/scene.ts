@@ -6,7 +6,7 @@ import {
 import { Camera } from "../../report/src/camera";
 import { Painter } from "../../report/src/painter";
 import { coarse, cross, type Crossing, type SkinBody } from "./skin";
-import type { Choices, Place } from "./state";
+import type { Choices, Place, Riser } from "./state";
 
 export interface Pick extends Crossing { body: number }
 export type Shown = "shown" | "ghost" | "hidden";
@@ -58,10 +58,14 @@ export class Picture {
   /** What is drawn in place of large skins while the picture moves, where pictures are slow. */
   private readonly rough = new Group();
   private roughOf: (BufferGeometry | undefined)[] = [];
+  /** What the graphics card keeps of each body, however it is dressed. */
+  private skins: { surface: BufferGeometry; lines: BufferGeometry }[] = [];
   private readonly placed = new Group();
   private readonly pointed = new Group();
   private wanted = 0;
   private moving = false;
+  /** Whether a finger or button is held on the picture: one that is slow then stays rough, though it may rest for a while. */
+  held = false;
   /** Called behind each picture, for what lies over it. */
   drawn: () => void = () => {};
 
@@ -89,14 +93,19 @@ export class Picture {
     this.shown = bodies.map(() => "shown");
     empty(this.pointed);
     for (const geometry of this.roughOf) geometry?.dispose();
+    for (const { surface, lines } of this.skins) for (const geometry of [surface, lines]) geometry.dispose();
     this.roughOf = bodies.map((body) => {
       if (body.faces.length < LARGE) return undefined;
-      const { position, normal, triangles } = coarse(body, 72), geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(position, 3));
-      geometry.setAttribute("normal", new BufferAttribute(normal, 3));
-      geometry.setIndex(new BufferAttribute(triangles, 1));
-      return geometry;
+      const { position, normal, triangles } = coarse(body, 72);
+      return surfaceOf(position, normal, triangles);
     });
+    this.skins = bodies.map((body) => {
+      const surface = surfaceOf(body.position, body.shape.normal, body.shape.triangles), lines = new BufferGeometry();
+      lines.setAttribute("position", surface.getAttribute("position"));
+      lines.setIndex(new BufferAttribute(body.lines, 1));
+      return { surface, lines };
+    });
+    this.painter?.forget();
     this.build();
     if (fit) this.fit();
   }
@@ -113,23 +122,16 @@ export class Picture {
   }
 
   private build(): void {
-    empty(this.things);
-    empty(this.rough);
+    empty(this.things, true);
+    empty(this.rough, true);
     const dark = document.documentElement.dataset.theme === "dark";
     this.bodies.forEach((body, b) => {
       if (this.shown[b] === "hidden") return;
       const ghost = this.shown[b] === "ghost", lit = this.lit.has(body.name);
       const colour = lit ? ACCENT : (ROLE_COLOURS[this.roles[b]] ?? OTHER);
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(body.position, 3));
-      geometry.setAttribute("normal", new BufferAttribute(body.shape.normal, 3));
-      geometry.setIndex(new BufferAttribute(body.shape.triangles, 1));
-      const look = paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1);
-      this.things.add(plain(new Mesh(geometry, look)));
-      this.rough.add(plain(new Mesh(this.roughOf[b] ?? geometry, look)));
-      const lines = new BufferGeometry();
-      lines.setAttribute("position", geometry.getAttribute("position"));
-      lines.setIndex(new BufferAttribute(body.lines, 1));
+      const { surface, lines } = this.skins[b], look = paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1);
+      this.things.add(plain(new Mesh(surface, look)));
+      this.rough.add(plain(new Mesh(this.roughOf[b] ?? surface, look)));
       this.things.add(plain(new LineSegments(lines, paint(dark ? "#0c0f13" : "#2a3038", ghost ? 0.25 : 0.6, false))));
     });
     this.request();
@@ -153,6 +155,7 @@ export class Picture {
       const mesh = new Mesh(new CylinderGeometry(r.diameter / 2, r.diameter / 2, r.height, 48), look(ROLE_COLOURS.riser));
       mesh.rotateX(Math.PI / 2);
       add(mesh, [r.foot[0], r.foot[1], r.foot[2] + r.height / 2]);
+      if (r.neck_to) this.neck(r, r.neck_to, look(ROLE_COLOURS.riser));
     }
     for (const c of choices?.riser === "placed" ? choices.chills : []) {
       const d = [0, 1, 2].map((i) => c.highest[i] - c.lowest[i]);
@@ -169,19 +172,27 @@ export class Picture {
     this.request();
   }
 
+  /** The neck of a riser next to the part: from its axis to a place of the part, level as far as the riser has that height. */
+  private neck(r: Riser, to: Place, look: Material): void {
+    const wide = r.neck_diameter ?? r.diameter, half = Math.min(wide / 2, r.height / 2);
+    const from = new Vector3(r.foot[0], r.foot[1], Math.min(Math.max(to[2], r.foot[2] + half), r.foot[2] + r.height - half)), along = new Vector3(...to).sub(from);
+    const mesh = plain(new Mesh(new CylinderGeometry(wide / 2, wide / 2, along.length(), 32), look));
+    mesh.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along.clone().normalize());
+    mesh.position.copy(from).addScaledVector(along, 0.5);
+    this.placed.add(mesh);
+  }
+
   /** Lights up a face of a body, or the triangle where faces have no numbers; nothing: none. */
   point(at?: Pick): void {
     empty(this.pointed);
     if (at) {
-      const body = this.bodies[at.body], face = body.faces[at.triangle], { triangles } = body.shape;
+      const body = this.bodies[at.body], face = body.faces[at.triangle], { triangles, normal } = body.shape;
+      // Its triangles alone go to the graphics card, each with corners of its own.
       const own: number[] = [];
-      for (let t = 0; t < body.faces.length; ++t)
-        if (face > 0 ? body.faces[t] === face : t === at.triangle) own.push(triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]);
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(body.position, 3));
-      geometry.setAttribute("normal", new BufferAttribute(body.shape.normal, 3));
-      geometry.setIndex(own);
-      this.pointed.add(plain(new Mesh(geometry, paint(ACCENT, 0.65))));
+      if (face > 0) body.faces.forEach((f, t) => f === face && own.push(3 * t, 3 * t + 1, 3 * t + 2));
+      else own.push(3 * at.triangle, 3 * at.triangle + 1, 3 * at.triangle + 2);
+      const take = (values: Float32Array) => Float32Array.from({ length: 3 * own.length }, (_, k) => values[3 * triangles[own[Math.floor(k / 3)]] + (k % 3)]);
+      this.pointed.add(plain(new Mesh(surfaceOf(take(body.position), take(normal), Uint32Array.from(own, (_, k) => k)), paint(ACCENT, 0.65))));
     }
     this.request();
   }
@@ -244,11 +255,11 @@ export class Picture {
     this.wanted = 0;
     if (!this.painter) return;
     this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight);
-    // A large skin that moves is drawn coarsely where the machine is slow, and whole as soon as it rests.
-    const draft = this.moving && this.painter.slow && this.roughOf.some((geometry) => geometry);
+    // A large skin that moves is drawn coarsely unless the machine has shown that it is quick enough, and whole as soon as it rests.
+    const draft = this.moving && !this.painter.quick && this.roughOf.some((geometry) => geometry);
     this.things.visible = !draft;
     this.rough.visible = draft;
-    this.painter.paint(this.scene, this.camera.three, this.moving, () => this.request());
+    this.painter.paint(this.scene, this.camera.three, this.moving, () => this.held || this.request(), draft);
     this.drawn();
   }
 
@@ -270,6 +281,8 @@ export class Picture {
       const hit = cross(this.bodies[body], from.toArray() as Place, along.toArray() as Place, 0);
       if (hit && (!best || hit.far < best.far)) best = { ...hit, body };
     }
+    // Some files have their triangles inside out: what is seen looks outward.
+    if (best && best.normal[0] * along.x + best.normal[1] * along.y + best.normal[2] * along.z > 0) best.normal = best.normal.map((v) => -v) as Place;
     return best;
   }
   get triangles(): number {
@@ -282,10 +295,19 @@ function plain<T extends Mesh | LineSegments>(thing: T): T {
   return thing;
 }
 
-function empty(group: Group): void {
+function surfaceOf(position: Float32Array, normal: Float32Array, triangles: Uint32Array): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(position, 3));
+  geometry.setAttribute("normal", new BufferAttribute(normal, 3));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  return geometry;
+}
+
+/** Takes everything out of a group, and off the graphics card; shapes that are shown again stay there. */
+function empty(group: Group, keep = false): void {
   for (const child of [...group.children]) {
     const mesh = child as Mesh;
-    mesh.geometry.dispose();
+    if (!keep) mesh.geometry.dispose();
     (mesh.material as Material).dispose();
     group.remove(child);
   }

@@ -1,5 +1,6 @@
 /** The steps before a run: the part, how it is cast, what is placed on it, and what `check` finds. */
 import { byId, h } from "../../report/src/dom";
+import { conditionList, metres } from "./conditions";
 import { bodiesOf, roleByName } from "./stage";
 import type { Chill, Choices, Desk, Finding, Place, Probe, Riser, State } from "./state";
 import { get } from "./state";
@@ -23,19 +24,14 @@ function number(id: string, label: string, value: number, change: (value: number
   return element;
 }
 
-const LENGTH = /^\s*([-+\d.e]+)\s*(mm|cm|m)\s*$/i;
-/** A length of a case file [m]; NaN where its unit is another one. */
-function metres(text: unknown): number {
-  const match = LENGTH.exec(String(text));
-  return match ? +match[1] * { mm: 1e-3, cm: 1e-2, m: 1 }[match[2].toLowerCase() as "mm" | "cm" | "m"] : NaN;
-}
 /** The risers that stand in the case file, as far as their lengths can be read. */
 function risersOf(state: State): Riser[] {
   const found = ((state.case?.document?.mesh as { riser?: Record<string, unknown>[] } | undefined)?.riser ?? []).map((r) => ({
     name: String(r.name), foot: ((r.foot ?? []) as unknown[]).map(metres) as Place, diameter: metres(r.diameter), height: metres(r.height),
     ...Object.fromEntries(["neck_diameter", "neck_height", "sleeve"].filter((key) => key in r).map((key) => [key, metres(r[key])])),
+    ...(Array.isArray(r.neck_to) ? { neck_to: r.neck_to.map(metres) as Place } : {}),
   }));
-  return found.filter((r) => [...r.foot, ...Object.values(r).filter((v) => typeof v === "number")].every((v) => Number.isFinite(v)));
+  return found.filter((r) => [...r.foot, ...(r.neck_to ?? []), ...Object.values(r).filter((v) => typeof v === "number")].every((v) => Number.isFinite(v)));
 }
 
 export class Setup {
@@ -117,10 +113,12 @@ export class Setup {
         const put = (change: Partial<Riser>) => risers(c.risers.map((old, k) => (k === n ? { ...old, ...change } : old)));
         out.push(row(r.name, gone(`riser-${n}-gone`, r.name, () => risers(c.risers.filter((_, k) => k !== n))),
           ["foot [mm]", point(`riser-${n}`, r.name, r.foot, (foot) => put({ foot }))],
-          ["wide, high, sleeve [mm]", [
+          [r.neck_to ? "wide, high, neck [mm]" : "wide, high, sleeve [mm]", [
             number(`riser-${n}-diameter`, `${r.name}: diameter in mm`, r.diameter, (diameter) => put({ diameter }), busy),
             number(`riser-${n}-height`, `${r.name}: height in mm`, r.height, (height) => put({ height }), busy),
-            number(`riser-${n}-sleeve`, `${r.name}: thickness of its sleeve in mm`, r.sleeve ?? 0, (sleeve) => put({ sleeve }), busy)]]));
+            r.neck_to ? number(`riser-${n}-neck`, `${r.name}: diameter of its neck in mm`, r.neck_diameter ?? 0, (neck_diameter) => put({ neck_diameter }), busy)
+              : number(`riser-${n}-sleeve`, `${r.name}: thickness of its sleeve in mm`, r.sleeve ?? 0, (sleeve) => put({ sleeve }), busy)]],
+          ...(r.neck_to ? [["neck leads to [mm]", point(`riser-${n}-to`, `${r.name}, where its neck leads to`, r.neck_to, (neck_to) => put({ neck_to }))] as [string, HTMLElement[]]] : [])));
       });
       c.chills.forEach((k, n) => {
         const put = (change: Partial<Chill>) => chills(c.chills.map((old, i) => (i === n ? { ...old, ...change } : old)));
@@ -147,6 +145,7 @@ export class Setup {
         return h("tr", {}, h("th", { scope: "row" }, h("i", { class: `role ${body.role || "other"}` }), body.name), h("td", {}, select(`material-${body.index}`, options, body.material,
           (material) => void this.desk.ask("set", { path: ["body", body.index, "material"], value: material }), busy)));
       })) : null,
+      conditionList(this.desk, state),
       h("div", { class: "buttons" },
         h("button", { id: "check", disabled: busy, class: check?.current ? "" : "on", click: () => void this.desk.ask("check") }, "Check"),
         h("button", { id: "to-keys", click: () => this.desk.openTab("keys") }, "All keys …"), h("button", { id: "to-text", click: () => this.desk.openTab("text") }, "The file …")),

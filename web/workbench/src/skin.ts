@@ -1,6 +1,7 @@
 /** Skins of parts and bodies: unpacked, and asked where a line meets them. */
-import { skinShape, type Shape } from "../../report/src/geometry";
+import { partners, skinShape, type Shape } from "../../report/src/geometry";
 import type { Place } from "./state";
+import { Tree } from "./tree";
 
 /** A body of a skin: triangles of its own with smooth normals, and the face of each. */
 export interface SkinBody {
@@ -12,6 +13,8 @@ export interface SkinBody {
   faces: Int32Array;
   /** Borders of faces, or sharp edges where faces have no numbers: pairs of vertices. */
   lines: Uint32Array;
+  /** Its triangles, to find where lines meet them. */
+  tree: Tree;
   low: Place;
   high: Place;
 }
@@ -53,19 +56,15 @@ function one(name: string, x: Float32Array, all: Uint32Array, allFaces: Int32Arr
       high[c] = Math.max(high[c], value);
     }
   });
-  return { name, shape, position, faces, lines: bordersOf(corners, faces, shape), low, high };
+  return { name, shape, position, faces, lines: bordersOf(corners, faces, shape, x.length / 3), tree: new Tree(position, shape.triangles), low, high };
 }
 
 /** Edges between triangles of different faces; sharp edges where faces have no numbers. */
-function bordersOf(corners: Uint32Array, faces: Int32Array, shape: Shape): Uint32Array {
+function bordersOf(corners: Uint32Array, faces: Int32Array, shape: Shape, nodes: number): Uint32Array {
   if (!faces.some((f) => f > 0)) return shape.features;
-  const open = new Map<number, number>(), out: number[] = [];
-  for (let i = 0; i < corners.length; ++i) {
-    const j = i % 3 === 2 ? i - 2 : i + 1, u = corners[i], v = corners[j];
-    const key = Math.min(u, v) * 0x4000000 + Math.max(u, v), other = open.get(key);
-    if (other === undefined) open.set(key, i);
-    else if (faces[(other / 3) | 0] !== faces[(i / 3) | 0]) out.push(shape.triangles[i], shape.triangles[j]);
-  }
+  const other = partners(corners, nodes), out: number[] = [];
+  for (let i = 0; i < corners.length; ++i)
+    if (other[i] > i && faces[(other[i] / 3) | 0] !== faces[(i / 3) | 0]) out.push(shape.triangles[i], shape.triangles[i % 3 === 2 ? i - 2 : i + 1]);
   return Uint32Array.from(out);
 }
 
@@ -96,29 +95,8 @@ export interface Crossing { triangle: number; far: number; place: Place; normal:
 
 /** Where a line from `from` along the unit vector `along` meets a body first, further than `least` [m]. */
 export function cross(body: SkinBody, from: Place, along: Place, least: number): Crossing | undefined {
-  const { position: x, shape: { triangles } } = body;
-  let far = Infinity, triangle = -1;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const p = 3 * triangles[t], q = 3 * triangles[t + 1], r = 3 * triangles[t + 2];
-    const ux = x[q] - x[p], uy = x[q + 1] - x[p + 1], uz = x[q + 2] - x[p + 2];
-    const vx = x[r] - x[p], vy = x[r + 1] - x[p + 1], vz = x[r + 2] - x[p + 2];
-    const hx = along[1] * vz - along[2] * vy, hy = along[2] * vx - along[0] * vz, hz = along[0] * vy - along[1] * vx;
-    const det = ux * hx + uy * hy + uz * hz;
-    if (det === 0) continue;
-    const sx = from[0] - x[p], sy = from[1] - x[p + 1], sz = from[2] - x[p + 2];
-    const a = (sx * hx + sy * hy + sz * hz) / det;
-    if (a < 0 || a > 1) continue;
-    const gx = sy * uz - sz * uy, gy = sz * ux - sx * uz, gz = sx * uy - sy * ux;
-    const b = (along[0] * gx + along[1] * gy + along[2] * gz) / det;
-    if (b < 0 || a + b > 1) continue;
-    const here = (vx * gx + vy * gy + vz * gz) / det;
-    if (here > least && here < far) {
-      far = here;
-      triangle = t / 3;
-    }
-  }
-  if (triangle < 0) return undefined;
-  return { triangle, far, place: [0, 1, 2].map((c) => from[c] + far * along[c]) as Place, normal: normalOf(body, triangle) };
+  const met = body.tree.cross(from, along, least);
+  return met && { ...met, place: [0, 1, 2].map((c) => from[c] + met.far * along[c]) as Place, normal: normalOf(body, met.triangle) };
 }
 
 /** The unit normal of a triangle, outward. */

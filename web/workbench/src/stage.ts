@@ -2,7 +2,8 @@
 import { byId, h, svg } from "../../report/src/dom";
 import { Vector3 } from "three";
 import { Picture, type Pick, type Shown } from "./scene";
-import { chillAt, freeName, looksUp, probeAt, riserAt, thickness } from "./placing";
+import { addCondition, KINDS, placedInCase, refusal } from "./conditions";
+import { chillAt, freeName, looksAside, looksUp, probeAt, riserAt, riserBeside, thickness } from "./placing";
 import { bytes, type Desk, type Finding, type Place, type State } from "./state";
 import { unpack } from "./skin";
 
@@ -144,6 +145,7 @@ export class Stage {
     canvas.addEventListener("pointerdown", (e) => {
       canvas.setPointerCapture(e.pointerId);
       down.set(e.pointerId, where(e));
+      this.picture.held = true;
       moved = spread = 0;
       this.root.focus({ preventScroll: true });
     });
@@ -167,6 +169,8 @@ export class Stage {
     const up = (e: PointerEvent) => {
       const single = down.size === 1;
       down.delete(e.pointerId);
+      this.picture.held = down.size > 0;
+      if (moved > 0) this.picture.request(this.picture.held);
       if (e.type === "pointerup" && single && moved <= 4 && e.button === 0) this.clicked(where(e));
     };
     canvas.addEventListener("pointerup", up);
@@ -186,9 +190,7 @@ export class Stage {
   private hover(at: [number, number]): void {
     cancelAnimationFrame(this.hovering);
     this.hovering = requestAnimationFrame(() => {
-      // Of a skin that takes long to search the pointer says nothing; a click does.
-      const count = this.picture.bodies.reduce((sum, b) => sum + b.faces.length, 0);
-      const hit = count < 400_000 ? this.picture.pick(...at) : undefined;
+      const hit = this.picture.pick(...at);
       this.tip.hidden = !hit;
       if (!hit) return;
       this.tip.replaceChildren(h("b", {}, this.picture.bodies[hit.body].name), h("span", {}, placeText(hit.place)));
@@ -211,22 +213,30 @@ export class Stage {
     const body = this.picture.bodies[hit.body], face = body.faces[hit.triangle], thick = thickness(body, hit), { state } = this.desk;
     const button = (id: string, text: string, why: string, act: () => void) =>
       h("button", { id: `place-${id}`, disabled: why !== "", title: why, click: () => { this.close(); act(); } }, text);
-    const busy = state.job ? "wait for what is computed" : "", onPart = this.which === "part" && state.choices ? busy : "turn to the picture of the part";
+    const busy = state.job ? "wait for what is computed" : "", onPart = state.choices ? busy : "the part is not next to the case";
     const now = () => this.desk.state.choices!;
     this.card.replaceChildren(
       h("p", {}, h("b", {}, body.name), face > 0 ? ` · face ${face}` : "", h("br"), placeText(hit.place), h("br"), `${mm(thick)} mm of it below`),
       h("div", { class: "buttons" },
-        button("riser", "Riser here", onPart || (looksUp(hit) ? "" : "a riser stands upright: click a face that looks up"), () =>
-          void this.desk.choose({ riser: "placed", risers: [...now().risers, riserAt(body, hit, freeName("riser", now().risers))] })),
-        button("chill", "Chill here", onPart, () => void this.desk.choose({ riser: "placed", chills: [...now().chills, chillAt(body, hit, freeName("chill", now().chills))] })),
-        button("probe", "Probe inside", this.which === "part" ? onPart : busy, () => this.probe(body, hit)),
-        this.which === "part" ? this.halve(hit, button, onPart) : null,
-        this.which === "part" ? button("gate", "Gate here", onPart, () => void this.desk.choose({ gate: hit.place })) : button("film", "Film here", busy, () => void this.film(body.name, hit)),
+        ...(this.which === "part" ? [
+          looksAside(hit)
+            ? button("beside", "Riser next to it", onPart, () => void this.desk.choose({ riser: "placed", risers: [...now().risers, riserBeside(body, hit, freeName("riser", now().risers))] }))
+            : button("riser", "Riser here", onPart || (looksUp(hit) ? "" : "a riser stands upright: click a face that looks up, or to the side"), () =>
+              void this.desk.choose({ riser: "placed", risers: [...now().risers, riserAt(body, hit, freeName("riser", now().risers))] })),
+          button("chill", "Chill here", onPart, () => void this.desk.choose({ riser: "placed", chills: [...now().chills, chillAt(body, hit, freeName("chill", now().chills))] })),
+          button("probe", "Probe inside", onPart, () => this.probe(body, hit)),
+          this.halve(hit, button, onPart),
+          button("gate", "Gate here", onPart, () => void this.desk.choose({ gate: hit.place })),
+        ] : [
+          button("probe", "Probe inside", busy, () => this.probe(body, hit)),
+          h("small", { class: "hint" }, "On this face, in addition to what acts there:"),
+          ...KINDS.map((kind) => button(kind.id, kind.text, refusal(kind, hit, state), () => void addCondition(this.desk, kind, body.name, hit))),
+        ]),
         h("button", { class: "quiet", id: "place-close", click: () => this.clear() }, "Close")),
     );
     this.card.hidden = false;
     const wide = 240, x = Math.min(at[0] + 14, Math.max(8, this.picture.canvas.clientWidth - wide - 8));
-    const y = Math.min(at[1] + 14, Math.max(8, this.picture.canvas.clientHeight - 170));
+    const y = Math.min(at[1] + 14, Math.max(8, this.picture.canvas.clientHeight - this.card.offsetHeight - 8));
     this.card.style.transform = `translate(${x}px, ${y}px)`;
   }
   /** Symmetry by a face: the part is halved in its middle, parallel to the face, or made whole again. */
@@ -246,16 +256,6 @@ export class Stage {
     const own = (state.case?.document?.probe ?? []) as { name: string }[], at = probeAt(body, hit, freeName("T", own));
     const point = at.point.map((v) => `${Math.round(v * 1e7) / 1e4} mm`);
     void this.desk.ask("add", { sections: [{ path: ["probe"], values: { name: at.name, kind: "point", field: "temperature", unit: "degC", point } }] });
-  }
-  /** A film on the smooth face that is nearest to a place of the case's bodies: a group by rule, and a condition on it, whose keys are then shown. */
-  private async film(body: string, hit: Pick): Promise<void> {
-    const { document } = this.desk.state.case ?? {}, taken = ((document?.mesh as { group?: { name: string }[] } | undefined)?.group ?? []).concat((document?.thermal_condition ?? []) as { name: string }[]);
-    const name = freeName("film", taken), nearest = hit.place.map((v) => `${Math.round(v * 1e7) / 1e4} mm`);
-    const conditions = (document?.thermal_condition ?? []) as object[];
-    const made = await this.desk.ask("add", { sections: [
-      { path: ["mesh", "group"], values: { name, owner: body, nearest } },
-      { path: ["thermal_condition"], values: { name, group: name, kind: "film", coefficient: "100 W/m2/K", ambient: "20 degC" } }] });
-    if (made) this.desk.openKeys(`thermal_condition.${conditions.length + 1}`);
   }
   /** A riser on the highest place of the part, for hands on a keyboard. */
   riserOnTop(): void {
@@ -284,6 +284,7 @@ export class Stage {
       for (const p of c.probes) marks.push({ at: p.point, label: p.name, kind: "name" });
       if (c.gate) marks.push({ at: c.gate, label: "gate", kind: "name" });
     }
+    if (this.desk.state && this.which === "case") marks.push(...placedInCase(this.desk.state).map((mark) => ({ ...mark, kind: "name" })));
     this.over.replaceChildren(...marks.map((m) => {
       const [x, y] = this.picture.project(m.at);
       return svg("g", { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`, class: `mark ${m.kind}` },

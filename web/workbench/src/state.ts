@@ -3,7 +3,7 @@
 export type Place = [number, number, number];
 export type Key = string | number;
 
-export interface Riser { name: string; foot: Place; diameter: number; height: number; neck_diameter?: number; neck_height?: number; sleeve?: number }
+export interface Riser { name: string; foot: Place; diameter: number; height: number; neck_diameter?: number; neck_height?: number; neck_to?: Place; sleeve?: number }
 export interface Chill { name: string; lowest: Place; highest: Place }
 export interface Probe { name: string; point: Place }
 
