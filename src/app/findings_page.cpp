@@ -53,9 +53,8 @@ std::string page_of_findings() {
   std::string text =
       "# Reference: findings of `check`\n\nFor those who read what `solidus check` and runs find in a case, "
       "and "
-      "ask why. An *error* ends both with exit code 1: no sensible case looks so. A *warning* gives the "
-      "number "
-      "and the usual range.\n";
+      "ask why. An *error* ends both with exit code 1, because no sensible case has it. A *warning* gives "
+      "the value found and the usual range.\n";
   // One table for each topic, of the rows of all families.
   for (const Topic topic : k_topics) {
     std::string title(name(topic));

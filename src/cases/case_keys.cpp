@@ -23,7 +23,7 @@ Section<AnalysisSpec> analysis_keys() {
       .doc("Magnitude of gravity.");
   s.key("gravity_direction", &AnalysisSpec::gravity_direction)
       .initially(Value::list())
-      .doc("Direction of gravity, of any length; empty: down the last axis (-y, in a solid -z).");
+      .doc("Direction of gravity, of any length; empty: down the last axis (-y; with kind = \"solid\" -z).");
   s.place(&AnalysisSpec::where);
   return s;
 }
@@ -35,7 +35,7 @@ Section<InitialStressSpec> initial_stress_keys() {
   using S = InitialStressSpec;
   Section<S> s("initial_stress",
                "Stress of the body at the start: the field of a file, or its components as functions of "
-               "position. Solid metal only; it finds its equilibrium in the first step.");
+               "position. Solid metal only; the first step brings it into equilibrium.");
   s.key("file", &S::file)
       .initially("")
       .doc("A .vtu or .pvtu file of another run or program, relative to this file.");
@@ -82,13 +82,14 @@ Section<BodySpec> body_keys() {
       .doc("At the start; the body is free of thermal strain there.");
   s.section("initial_stress", &BodySpec::initial_stress, initial_stress_keys());
   s.choice("role", &BodySpec::role,
-           {{"automatic", std::nullopt, "a casting where the material can melt, else what its name says"},
-            {"casting", Role::casting, "what is poured"},
+           {{"automatic", std::nullopt,
+             "a casting where the material can melt, else the role that its name contains"},
+            {"casting", Role::casting, "metal that is poured"},
             {"riser", Role::riser, "metal that feeds the casting"},
             {"gating", Role::gating, "sprue, runners and gates: poured with the casting and cut off"},
-            {"mould", Role::mould, "what is broken off or shaken out"},
+            {"mould", Role::mould, "a mould that is broken off or shaken out"},
             {"core", Role::core, "a mould inside the casting"},
-            {"chill", Role::chill, "a piece that draws heat, whatever it is made of"},
+            {"chill", Role::chill, "a block that draws heat, of any material"},
             {"sleeve", Role::sleeve, "keeps a riser warm"},
             {"die", Role::die, "a mould that is used again"},
             {"insulation", Role::insulation, "a layer or board that holds heat back"}})
@@ -101,22 +102,23 @@ Section<BodySpec> body_keys() {
              "heat where the body is no casting and its material has no elastic properties, else all"},
             {"all", BodySpec::ActivePhysics::all, "those of the analysis"},
             {"heat", BodySpec::ActivePhysics::heat,
-             "in a thermomechanical analysis it conducts heat and stands still"}})
+             "in a thermomechanical analysis it conducts heat and does not deform"}})
       .initially("automatic")
       .doc(
-          "What the body takes part in. One that only conducts heat (a sand mould) costs no mechanics: nodes "
-          "that it shares with others move with them, and in contact it is a rigid wall.");
+          "The fields that are solved for in the body. One that only conducts heat (a sand mould) costs no "
+          "mechanics: nodes that it shares with other bodies move with them, and in contact it is a rigid "
+          "wall.");
   s.key("stages", &BodySpec::stages)
       .or_one()
       .initially(Value::list())
       .doc(
-          "The stages up to which the body is there, from the first one on; empty: all. It does not come "
-          "back.");
+          "The stages in which the body exists, from the first one on without a break; empty: all. A body "
+          "that was removed does not come back.");
   s.quantity("initial_velocity", &BodySpec::initial_velocity, "m/s")
       .initially(Value::list())
       .doc(
-          "One component a direction, with [dynamics] only; empty: at rest. Prescribed displacements go "
-          "first.");
+          "One component a direction, with [dynamics] only; empty: at rest. Prescribed displacements take "
+          "precedence.");
   s.place(&BodySpec::where);
   return s;
 }
@@ -131,8 +133,8 @@ const Section<CaseSpec>& case_keys() {
         .or_one()
         .initially(Value::list())
         .doc(
-            "The case file, or files, that this one starts from: each is laid over those before it, what "
-            "is written here over them all.");
+            "The case file, or files, that this one starts from: keys of a later file replace those of an "
+            "earlier one, and keys of this file replace them all.");
     s.section("analysis", &CaseSpec::analysis, analysis_keys());
     s.section("mesh", &CaseSpec::mesh, mesh_keys());
     s.section("time", &CaseSpec::time, time_keys());

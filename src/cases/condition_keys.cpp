@@ -54,9 +54,9 @@ void surface_heat_keys(Section<ThermalConditionSpec>& s) {
   s.choice("radiation", &C::sees,
            {{"ambient", C::Sees::ambient, "the surface sees surroundings of one temperature alone"},
             {"enclosure", C::Sees::enclosure,
-             "it sees all surfaces whose condition says so, and the surroundings where none of them is in "
-             "the way: grey and diffuse, with view factors by rays. Emissivity, ambient and factor are no "
-             "functions of place then"}})
+             "it sees all surfaces whose conditions have this value, and the surroundings where none of them "
+             "is in the way: grey and diffuse, with view factors by ray tracing. Emissivity, ambient and "
+             "factor cannot be functions of position then"}})
       .initially("ambient")
       .when("kind", {"radiation"})
       .doc("What the surface exchanges radiation with.");
@@ -77,11 +77,11 @@ void volume_heat_keys(Section<ThermalConditionSpec>& s) {
   s.quantity("ignition", &C::ignition, "K")
       .positive()
       .when("kind", {"exothermic"})
-      .doc("The temperature at which a place ignites.");
+      .doc("The temperature at which a point ignites.");
   s.quantity("duration", &C::duration, "s")
       .positive()
       .when("kind", {"exothermic"})
-      .doc("How long a place burns; its heat comes evenly.");
+      .doc("How long a point burns; it releases its heat at a constant rate.");
 }
 
 }  // namespace
@@ -102,8 +102,8 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
             {"radiation", C::Kind::radiation, "grey body: emissivity x Stefan-Boltzmann (ambient^4 - T^4)"},
             {"source", C::Kind::source, "heat released in the volume of a body"},
             {"exothermic", C::Kind::exothermic,
-             "heat that a body releases once, place after place, when it has become hot enough: a sleeve or "
-             "a topping that burns"}})
+             "heat that each point of a body releases once, when it reaches its ignition temperature: a "
+             "sleeve or a topping that burns"}})
       .doc("What acts there.");
   surface_heat_keys(s);
   volume_heat_keys(s);
@@ -114,8 +114,8 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .at_least(0)
       .when("kind", {"flux", "film", "radiation", "source"})
       .doc(
-          "The flux, coefficient, emissivity or power is multiplied by it: where and when a condition acts "
-          "whose coefficient is a table of temperature.");
+          "The flux, coefficient, emissivity or power is multiplied by it: it gives a condition whose "
+          "coefficient is a table of temperature a dependence on place and time.");
   add_stage_keys(s);
   s.place(&C::where);
   return s;
@@ -137,9 +137,8 @@ void displacement_keys(Section<MechanicalConditionSpec>& s) {
       .initially(false)
       .when("kind", {"displacement"})
       .doc(
-          "Count displacements from where each node is when the stage begins: 0 holds it there. Otherwise "
-          "from "
-          "the mesh.");
+          "Displacements count from the position of each node when the stage begins: 0 holds it there. "
+          "Otherwise they count from the mesh.");
 }
 
 /// Declares what loads a surface or the volume of a body.
@@ -163,7 +162,7 @@ void load_keys(Section<MechanicalConditionSpec>& s) {
   s.function("level", &C::level, "m")
       .of({Argument::time})
       .when("kind", {"metallostatic"})
-      .doc("How high the melt stands, as a coordinate against gravity; what lies above it is not pressed.");
+      .doc("Height of the surface of the melt, as a coordinate against gravity; no pressure acts above it.");
   s.quantity("density", &C::density, "kg/m3")
       .positive()
       .when("kind", {"metallostatic"})
@@ -172,7 +171,7 @@ void load_keys(Section<MechanicalConditionSpec>& s) {
       .of({Argument::time})
       .initially("0 Pa")
       .when("kind", {"metallostatic"})
-      .doc("Pressure on the level of the melt, of gas or of a piston, which acts below it everywhere.");
+      .doc("Pressure of a gas or a piston on the surface of the melt; it acts everywhere below.");
 }
 
 }  // namespace
@@ -207,8 +206,8 @@ Section<MechanicalConditionSpec> mechanical_condition_keys() {
 Section<RotationSpec> rotation_keys() {
   Section<RotationSpec> s(
       "rotation",
-      "Bodies that turn about an axis, as a pipe that is cast by rotation: seen by who "
-      "turns with them, a centrifugal force. Coriolis' force and that of a changing speed "
+      "Bodies that rotate about an axis, such as a centrifugally cast pipe: a centrifugal force acts in the "
+      "frame that rotates with them. Coriolis' force and that of a changing speed "
       "are left out.");
   s.function("omega", &RotationSpec::omega, "rad/s")
       .of({Argument::time})

@@ -41,25 +41,27 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
   s.sections("at", &H::families, heat_table_keys());
   s.key("smooth", &H::smooth)
       .initially(false)
-      .doc("A continuous slope from contact to gap: cubics over the transitions replace the laws there.");
+      .doc("A continuous slope from contact to gap: cubic polynomials replace the laws in the transition.");
   s.quantity("transition_gap", &H::transition_gap, "m")
       .positive()
-      .doc("Gaps up to which a smooth law is replaced; without it 1 um.");
+      .doc("Gap up to which the cubic polynomial replaces the law; without it 1 um.");
   s.quantity("transition_pressure", &H::transition_pressure, "Pa")
       .positive()
-      .doc("Pressures up to which a smooth law is replaced; without it 0.1 MPa.");
+      .doc("Pressure up to which the cubic polynomial replaces the law; without it 0.1 MPa.");
   s.key("slave_resistance", &H::slave_resistance)
       .range(0.001, 0.999)
       .doc(
-          "Share of the interface's resistance that lies between the slave (of `surfaces`: the first) and "
-          "the "
-          "temperature of the interface: h1 = h / share, h2 = h / (1 - share) (3.45). It divides the heat of "
+          "Fraction of the interface's resistance that lies between the slave (with `surfaces`: the first "
+          "one) and the temperature of the interface: h1 = h / share, h2 = h / (1 - share) (3.45). It "
+          "divides the heat of "
           "friction and places a coating on one side; without it a half, or what contact_law = \"sides\" "
           "says.");
   s.key("slave_emissivity", &H::slave_emissivity)
       .initially(0.0)
       .range(0, 1)
-      .doc("Emissivity of the slave's surface; with both, grey bodies radiate across the interface.");
+      .doc(
+          "Emissivity of the slave's surface; where both are given, the surfaces radiate across the "
+          "interface as grey bodies.");
   s.key("master_emissivity", &H::master_emissivity)
       .initially(0.0)
       .range(0, 1)
@@ -73,9 +75,10 @@ Section<BodyInterfaceSpec> body_interface_keys() {
   using I = BodyInterfaceSpec;
   Section<I> s(
       "interface",
-      "Contact between bodies, whose facing surfaces are found by themselves: each pair A, B becomes a "
-      "[[contact]] between the groups `A_to_B` and `B_to_A`. What of a skin faces no other body is "
-      "the group `A_free`, for films; what lies in a plane of symmetry is `A_symmetry`. Nodes that two such "
+      "Contact between bodies, whose facing surfaces are found automatically: each pair A, B becomes a "
+      "[[contact]] between the groups `A_to_B` and `B_to_A`. The part of the surface of A that faces no "
+      "other body is the group `A_free`, for films; the part in a plane of symmetry is `A_symmetry`. Nodes "
+      "that two such "
       "bodies share are split.");
   s.key("name", &I::name).initially("").doc("A name of your choice, that of the contact; without it `A_B`.");
   s.key("bodies", &I::bodies)
@@ -86,13 +89,13 @@ Section<BodyInterfaceSpec> body_interface_keys() {
   s.quantity("distance", &I::distance, "m")
       .positive()
       .doc(
-          "How far apart faces may be that face each other; without it a quarter of the mean edge of the "
-          "finer of the two skins.");
+          "How far apart faces may be that face each other; without it a quarter of the mean edge length of "
+          "the finer of the two surfaces.");
   s.quantity("touching", &I::touching, "m").at_least(0).doc("As of a [[contact]].");
   s.key("law", &I::law)
       .initially("")
       .doc(
-          "The card in the library of interface laws (`interfaces/`); without it the one that fits "
+          "The card in the library of interface laws (`interfaces/`); without it the one that fits the "
           "materials and roles best.");
   s.key("wet", &I::wet).initially(true).doc("As of a [[contact]].");
   s.section("heat", &I::heat, contact_heat_keys());
@@ -120,7 +123,8 @@ void pressure_keys(Section<ContactSpec>& s) {
          "friction or large sliding by less than 5 %"},
         {"penalty", Normal::penalty, "pressure = penalty x penetration (3.43)"},
         {"augmented_lagrangian", Normal::augmented_lagrangian,
-         "the same with multipliers, until the penetration is within its tolerance"},
+         "the same with Lagrange multipliers, which are updated until the penetration is within its "
+         "tolerance"},
         {"energy_conserving", Normal::energy_conserving,
          "mean over the step by the difference quotient of the energy (5.19)"}})
       .initially("automatic")
@@ -140,34 +144,33 @@ void pressure_keys(Section<ContactSpec>& s) {
       .doc(
           "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces. "
           "Without it and `penalty` the factor is 10, with integration = \"mortar\" 100; next to a melt the "
-          "penalty is then at most that with which the `atmosphere` moves a liquid skin by 0.1 % of the free "
-          "contraction of ten sections (volume over cooling surface) of the body, and with the penalty alone "
-          "it rises where the skin gets solid, to the factor on "
-          "the stiffness of the softer surface, if both bodies have a Young's modulus.");
+          "penalty is then at most that with which the `atmosphere` moves a liquid surface by 0.1 % of the "
+          "free contraction of ten moduli (volume over cooling surface) of the body. With normal = "
+          "\"penalty\" it rises as the surface of the casting gets solid, to the factor times the stiffness "
+          "of the softer surface, if both bodies have a Young's modulus.");
   s.key("stabilisation", &C::stabilisation)
       .initially(1e-8)
       .range(0, 1)
       .doc(
-          "Share of the penalty that the matrix, not the forces, always holds: for bodies that lose their "
-          "support.");
+          "Fraction of the penalty that is always in the matrix, but not in the forces: for bodies that lose "
+          "their support.");
 }
 
 /// Declares where contact is integrated.
 void integration_keys(Section<ContactSpec>& s) {
   using C = ContactSpec;
   using contact::IntegrationRule;
-  s.choice(
-       "integration", &C::integration,
-       {{"automatic", IntegrationRule::automatic, "segments with small sliding, Gauss points with large"},
-        {"segments", IntegrationRule::segments,
-         "slave faces cut where master faces end: exact on non-matching meshes; with large sliding cut again "
-         "in every configuration, with means over halves of lines and quarters of faces (a rigid surface has "
-         "nothing to cut at: Gauss points)"},
-        {"mortar", IntegrationRule::mortar,
-         "means of segments around the slave's nodes: pressures stay even with stiff penalties too, "
-         "small sliding only"},
-        {"nodal", IntegrationRule::nodal, "at the slave's nodes"},
-        {"gauss", IntegrationRule::gauss, "at Gauss points of the slave's faces"}})
+  s.choice("integration", &C::integration,
+           {{"automatic", IntegrationRule::automatic, "segments with small sliding, Gauss points with large"},
+            {"segments", IntegrationRule::segments,
+             "slave faces cut where master faces end: exact on non-matching meshes; with large sliding cut "
+             "again in every configuration, with means over halves of lines and quarters of faces (on a "
+             "rigid surface: Gauss points)"},
+            {"mortar", IntegrationRule::mortar,
+             "means over segments around the slave's nodes: no oscillating pressures with stiff penalties, "
+             "small sliding only"},
+            {"nodal", IntegrationRule::nodal, "at the slave's nodes"},
+            {"gauss", IntegrationRule::gauss, "at Gauss points of the slave's faces"}})
       .initially("automatic")
       .doc("Where contact is integrated.");
   s.key("gauss_degree", &C::gauss_degree)
@@ -181,27 +184,27 @@ void first_gap_keys(Section<ContactSpec>& s) {
   using C = ContactSpec;
   s.quantity("search_distance", &C::search_distance, "m")
       .positive()
-      .doc("How far partners are looked for; without it a tenth of the slave's extent.");
+      .doc(
+          "Largest distance at which opposite points are searched; without it a tenth of the slave's "
+          "extent.");
   s.quantity("touching", &C::touching, "m")
       .at_least(0)
       .doc(
-          "Initial gaps and penetrations up to this size count as touching, others stay as the mesh has "
-          "them; "
-          "without it the gap is that between the curved surfaces that facets stand for, and what is left of "
-          "it by rounding and scatter, up to a quarter of the height of the facets, counts as touching.");
+          "Initial gaps and penetrations up to this size count as touching, larger ones stay as in the mesh. "
+          "Without it the initial gap is that between the curved surfaces that the facets approximate, and a "
+          "rest of it, up to a quarter of the height of the facets, counts as touching.");
   s.key("wet", &C::wet)
       .initially(true)
       .doc(
           "Liquid metal is held on the wall by the atmosphere until its solid fraction reaches the "
           "coherency_fraction of its material, and conducts heat as closed contact until then. Without it a "
-          "gap "
-          "opens as soon as the metal would pull. Bodies that never melt do not feel it.");
+          "gap opens as soon as the metal would pull. It has no effect on bodies that never melt.");
   s.quantity("atmosphere", &C::atmosphere, "Pa")
       .initially("101325 Pa")
       .positive()
       .doc(
-          "The pressure with which liquid metal is held on the wall, where `wet`: less where gas passes the "
-          "wall.");
+          "The pressure with which liquid metal is held on the wall, where `wet`: less than the atmosphere's "
+          "where gas can pass the wall.");
 }
 
 }  // namespace
@@ -217,24 +220,24 @@ Section<ContactSpec> contact_keys() {
       .doc("Surface group that is integrated over: the finer or softer one.");
   s.key("master", &C::master)
       .initially("")
-      .doc("Surface group that it is projected on, or a [[rigid_surface]].");
+      .doc("Surface group onto which the slave is projected, or a [[rigid_surface]].");
   s.key("surfaces", &C::surfaces)
       .initially(Value::list())
       .doc(
           "Both groups instead of `slave` and `master`: the one with the smaller faces becomes the slave, of "
           "two alike the softer one.");
   using contact::Formulation;
-  s.choice("formulation", &C::formulation,
-           {{"small_sliding", Formulation::small_sliding,
-             "partners found once, where the bodies are at the start: for surfaces that move little along "
-             "each other"},
-            {"large_sliding", Formulation::large_sliding, "closest points where the bodies are"}})
+  s.choice(
+       "formulation", &C::formulation,
+       {{"small_sliding", Formulation::small_sliding,
+         "once, in the initial configuration: for surfaces that move little along each other"},
+        {"large_sliding", Formulation::large_sliding, "as the closest point in the current configuration"}})
       .initially("small_sliding")
-      .doc("Who touches whom.");
+      .doc("How the point opposite to a contact point is found.");
   s.key("smoothing", &C::smoothing)
       .initially(false)
       .when("formulation", {"large_sliding"})
-      .doc("Averaged normals of the master: no jumps of the force from face to face.");
+      .doc("Averaged normals of the master, so that the force does not jump from face to face.");
   pressure_keys(s);
   integration_keys(s);
   first_gap_keys(s);
@@ -245,7 +248,9 @@ Section<ContactSpec> contact_keys() {
   s.key("stages", &C::stages)
       .or_one()
       .initially(Value::list())
-      .doc("The stages in which it holds; empty: in all. In the others nothing passes between the surfaces.");
+      .doc(
+          "The stages in which it holds; empty: in all. In the others neither force nor heat passes between "
+          "the surfaces.");
   s.place(&C::where);
   return s;
 }

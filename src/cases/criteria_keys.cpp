@@ -7,12 +7,12 @@ namespace solidus::cases {
 Section<CriteriaSpec> criteria_keys() {
   using C = CriteriaSpec;
   Section<C> s("criteria",
-               "What a foundry engineer reads off a casting that freezes (docs/guide/criteria.md).");
+               "Criteria of a casting that freezes, for the foundry engineer (docs/guide/criteria.md).");
   s.key("follow", &C::follow)
       .initially(true)
       .doc(
-          "Follow solidification times, gradients, Niyama, pools of melt and strains over the steps, where "
-          "something can freeze. Without it those fields do not exist.");
+          "Compute solidification times, gradients, Niyama values, pools of melt and strains from step to "
+          "step, where something can freeze. With false those fields do not exist.");
   s.key("evaluation", &C::evaluation)
       .initially(0.1)
       .range(0, 0.99)
@@ -22,12 +22,12 @@ Section<CriteriaSpec> criteria_keys() {
   s.key("feeding_limit", &C::feeding_limit)
       .initially(0.7)
       .range(0.01, 1)
-      .doc("Solid fraction beyond which no melt is fed: pools of melt lie below.");
+      .doc("Solid fraction above which no melt flows in; metal below it belongs to pools of melt.");
   s.key("feeders", &C::feeders)
       .initially(Value::list())
       .doc(
-          "Groups of the mesh (bodies, surfaces) that feed: a pool that holds none of their nodes is closed "
-          "off. Without any, a pool is closed off when it splits off a larger one.");
+          "Groups of the mesh (bodies, surfaces) that feed: a pool that contains none of their nodes is "
+          "closed off. Where none is given, a pool is closed off when it separates from a larger one.");
   s.place(&C::where);
   return s;
 }

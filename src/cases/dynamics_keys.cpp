@@ -15,7 +15,7 @@ Section<DynamicsSpec> dynamics_keys() {
       .doc("The mass matrix.");
   s.choice("method", &D::method,
            {{"backward_euler", D::Method::backward_euler,
-             "first order, damps whatever is shorter than some tens of steps"},
+             "first order, damps oscillations with a period of less than some tens of steps"},
             {"newmark", D::Method::newmark, "with gamma and beta; first order unless gamma = 0.5"},
             {"trapezoidal", D::Method::trapezoidal,
              "gamma = 0.5, beta = 0.25: second order, keeps the energy of linear elastic bodies"},
@@ -23,8 +23,8 @@ Section<DynamicsSpec> dynamics_keys() {
              "second order, damps the highest frequencies to spectral_radius a step"}})
       .initially("generalised_alpha")
       .doc(
-          "How displacement, velocity and acceleration advance; all are stable for every step in linear "
-          "dynamics.");
+          "Time integration of displacement, velocity and acceleration; all methods are stable for every "
+          "step in linear dynamics.");
   s.key("gamma", &D::gamma)
       .initially(0.6)
       .when("method", {"newmark"})
@@ -39,7 +39,9 @@ Section<DynamicsSpec> dynamics_keys() {
       .initially(0.8)
       .when("method", {"generalised_alpha"})
       .range(0, 1)
-      .doc("What a step leaves of the highest frequencies: 1 damps nothing, 0 removes them at once.");
+      .doc(
+          "Factor by which a step reduces the amplitude of the highest frequencies: 1 damps nothing, 0 "
+          "removes them at once.");
   s.place(&D::where);
   return s;
 }

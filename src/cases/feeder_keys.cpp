@@ -8,26 +8,25 @@ namespace solidus::cases {
 
 Section<RiserBlockSpec> riser_keys() {
   using R = RiserBlockSpec;
-  Section<R> s(
-      "riser",
-      "An upright cylinder of metal on the geometry, or next to it: what of it lies outside of the parts.");
+  Section<R> s("riser",
+               "An upright cylinder of metal on the geometry, or next to it: the part of the cylinder "
+               "outside of the parts.");
   s.key("name", &R::name).initially("riser").doc("Its name, as a group of the mesh.");
   s.quantity("foot", &R::foot, "m").doc("Centre of its foot, three coordinates; it may lie inside a part.");
   s.quantity("diameter", &R::diameter, "m").positive().doc("Its diameter.");
   s.quantity("height", &R::height, "m").positive().doc("Its height above the foot, along z, with the neck.");
   s.quantity("neck_diameter", &R::neck_diameter, "m")
       .positive()
-      .doc("Diameter of its neck, at most its own. Without it there is none.");
+      .doc("Diameter of its neck, at most that of the riser. Without it there is none.");
   s.quantity("neck_height", &R::neck_height, "m")
       .initially("0 mm")
       .at_least(0)
-      .doc("So high above the foot the neck ends and the sleeve begins.");
+      .doc("Height above the foot at which the neck ends and the sleeve begins.");
   s.quantity("neck_to", &R::neck_to, "m")
       .initially(Value::list())
       .doc(
           "Of a riser next to the part: a point in the part to which the neck leads from the axis of the "
-          "riser, level "
-          "as far as the riser has that height.");
+          "riser; the neck is horizontal where the riser reaches the height of that point.");
   s.quantity("sleeve", &R::sleeve, "m")
       .initially("0 mm")
       .at_least(0)
@@ -38,7 +37,7 @@ Section<RiserBlockSpec> riser_keys() {
 
 Section<ChillBlockSpec> chill_keys() {
   using C = ChillBlockSpec;
-  Section<C> s("chill", "A block against the geometry: what of a box lies outside of the parts and risers.");
+  Section<C> s("chill", "A block against the geometry: the part of a box outside of the parts and risers.");
   s.key("name", &C::name).initially("chill").doc("Its name, as a group of the mesh.");
   s.quantity("lowest", &C::lowest, "m")
       .doc("A corner of the box, three coordinates; it may lie inside a part.");

@@ -8,52 +8,53 @@ namespace solidus::cases {
 Section<FeedingSpec> feeding_keys() {
   using F = FeedingSpec;
   Section<F> s("feeding",
-               "Where the metal that shrinks takes its volume from, in runs with heat alone: pipes, sinks, "
-               "cavities and pores (docs/guide/feeding.md).");
+               "Feeding of the shrinkage in runs with heat alone: pipes, sinks, cavities and pores "
+               "(docs/guide/feeding.md).");
   s.key("follow", &F::follow)
       .initially(true)
       .doc(
-          "Follow feeding where criteria are followed and something freezes. With mechanics there is none of "
-          "it: mixed elements open pores.");
+          "Compute feeding where criteria.follow is true and something freezes. It has no effect with "
+          "mechanics, where mixed elements open pores instead.");
   s.key("moves_heat", &F::moves_heat)
       .initially(false)
       .doc(
-          "Metal that moves takes its heat along, and emptied places conduct and store as the gas that fills "
-          "them. Off: temperatures are those of a casting that stays full. For one alloy, without stages, "
-          "with the closed rule.");
+          "Metal that moves takes its heat along, and emptied places conduct and store heat as the gas in "
+          "them. With false, temperatures are those of a casting that stays full. For one alloy, without "
+          "stages, with the closed rule.");
   s.key("vented", &F::vented)
       .initially(Value::list())
       .doc(
-          "Groups of the mesh at which melt is open to the atmosphere. Empty: skins of risers, or where "
-          "there "
-          "are none of all that is cast, that face up and touch no other body; gravity_direction of the "
-          "analysis says where up is.");
+          "Groups of the mesh at which melt is open to the atmosphere. Empty: surfaces of risers (without "
+          "risers, of all castings) that face up and touch no other body; up is against gravity_direction of "
+          "[analysis].");
   s.key("covered", &F::covered)
       .initially(Value::list())
-      .doc("Groups of the mesh at which melt is not open, whatever they are otherwise.");
+      .doc(
+          "Groups of the mesh at which melt is not open to the atmosphere, although `vented` or its default "
+          "would include them.");
   s.key("mould_rigidity", &F::mould_rigidity)
       .range(0, 1)
       .doc(
-          "The share of the expansion of graphite that the mould holds, so that it feeds the casting; to the "
-          "rest its wall gives way. Absent: the least of the rigidity of the moulds' cards, 1 without a "
-          "mould.");
+          "The fraction of the graphite expansion that the mould resists, so that it feeds the casting; the "
+          "rest moves the mould wall. Without it the smallest `rigidity` of the moulds' materials, 1 without "
+          "a mould.");
   s.place(&F::where);
   return s;
 }
 
 /// Keys of [gas]: whether it is followed, its content, and the pressure of the surroundings.
 Section<GasSpec> gas_keys() {
-  Section<GasSpec> s("gas",
-                     "Gas in the melt, and the pores that it makes, where a card has [gas] "
-                     "(docs/guide/gas.md).");
+  Section<GasSpec> s(
+      "gas",
+      "Gas in the melt and the pores that it forms, where a material file has [gas] (docs/guide/gas.md).");
   s.key("follow", &GasSpec::follow)
       .initially(true)
-      .doc("Follow gas where criteria are followed and the material of a casting has [gas].");
+      .doc("Compute gas pores where criteria.follow is true and the material of a casting has [gas].");
   s.quantity("content", &GasSpec::content, "m3/kg")
       .at_least(0)
       .doc(
-          "Gas in the melt as it is poured, volume at standard state per mass: \"0.15 cm3/(100 g)\". Absent: "
-          "that of the card, which is a usual one.");
+          "Gas in the melt as it is poured, volume at standard state per mass: \"0.15 cm3/(100 g)\". Without "
+          "it the usual content that the material file gives.");
   s.quantity("ambient_pressure", &GasSpec::ambient_pressure, "Pa")
       .initially("101325 Pa")
       .positive()

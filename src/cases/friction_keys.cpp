@@ -11,8 +11,8 @@ Section<FrictionCurveSpec> curve_keys() {
   Section<C> s(
       "curve",
       "The coefficient of friction as a table of the internal variable, instead of `coefficient`. One "
-      "curve, or several at different temperatures, linear between them; level beyond the last "
-      "points and temperatures.");
+      "curve, or several at different temperatures, linear between them; constant beyond the last points and "
+      "temperatures.");
   s.quantity("temperature", &C::temperature, "K")
       .positive()
       .doc("Of the surface; needed where there are several curves.");
@@ -47,9 +47,11 @@ Section<FrictionSpec> friction_keys() {
   s.choice("internal_variable", &F::internal_variable,
            {{"normal_work", normal_work, "pressure times slip (3.53b); its hardening stores energy (3.41c)"},
             {"frictional_work", frictional_work, "the work of friction"},
-            {"slip", slip, "the length of the way"}})
+            {"slip", slip, "the sliding distance"}})
       .initially("normal_work")
-      .doc("What hardens, softens or wears the surface: z, added up on the slave's points.");
+      .doc(
+          "The variable z with which the surface hardens, softens or wears, accumulated at the slave's "
+          "points.");
   s.key("internal_variable_unit", &F::internal_variable_unit)
       .doc("Unit of z, as \"kN/mm\"; without it N/m for work and m for slip.");
   s.quantity("tangential_penalty", &F::tangential_penalty, "N/m3")
@@ -62,17 +64,15 @@ Section<FrictionSpec> friction_keys() {
   s.key("symmetric", &F::symmetric)
       .initially(false)
       .doc(
-          "Leaves out of the matrix, not out of the forces, how the limit of friction follows the pressure: "
-          "for symmetric solvers, at the price of iterations.");
+          "Leaves the derivative of the friction limit by the pressure out of the matrix, not out of the "
+          "forces: for symmetric solvers, at the price of more iterations.");
   s.key("thermal_return_mapping", &F::thermal_return_mapping)
       .initially(false)
       .doc(
-          "The thermal phase of a split finds slip and temperature of the interface again, with the "
-          "coefficient "
-          "at its own temperature (5.40-5.51), in place of keeping the slip of the mechanical phase, with "
-          "which the first law closes. Schemes whose fields agree at the end of a step solve these equations "
-          "in "
-          "any case; one that cannot take them says so.");
+          "The thermal phase of a split computes slip and temperature of the interface again, with the "
+          "coefficient of friction at the new temperature (5.40-5.51). Without it the slip of the mechanical "
+          "phase is kept, with which energy is conserved. Schemes whose fields agree at the end of a step "
+          "solve these equations in any case; a scheme that cannot use them refuses the key.");
   s.place(&F::where);
   return s;
 }
@@ -82,7 +82,7 @@ Section<WearSpec> wear_keys() {
   using W = WearSpec;
   Section<W> s(
       "wear",
-      "Depth worn off by Archard's law, dh = k p dg / H, as a field on the surface that wears; the geometry "
+      "Wear depth by Archard's law, dh = k p dg / H, as a field on the surface that wears; the geometry "
       "stays as it is. Needs [contact.friction].");
   s.key("archard", &W::archard).positive().doc("k, the dimensionless coefficient of wear, 1e-8 to 1e-3.");
   s.function("hardness", &W::hardness, "Pa")
@@ -93,8 +93,8 @@ Section<WearSpec> wear_keys() {
       .initially(0.0)
       .range(0, 1)
       .doc(
-          "Part of the depth that the master loses, the slave the rest: 0 the slave alone wears, 1 the "
-          "master alone. The master remembers it at its nodes, wherever the slave goes.");
+          "Fraction of the depth that the master loses; the slave loses the rest: 0 only the slave wears, 1 "
+          "only the master. The wear of the master is stored at its nodes, wherever the slave goes.");
   s.place(&W::where);
   return s;
 }
@@ -106,9 +106,9 @@ Section<InterfaceSpec> interface_keys() {
       .at_least(0)
       .initially("0 J/m2/K")
       .doc(
-          "C_co (3.41b). Zero: it stores no heat, its temperature is where the heat flows balance. With "
-          "hardening that depends on temperature, a split that holds entropies keeps its estimate of "
-          "stability only above zero.");
+          "C_co (3.41b). Zero: it stores no heat, and its temperature balances the heat flows. With "
+          "hardening that depends on temperature, the proof of stability of an isentropic split needs a "
+          "value above zero.");
   return s;
 }
 

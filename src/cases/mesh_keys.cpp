@@ -76,8 +76,7 @@ Section<TwoBlocksSpec> two_blocks_keys() {
 Section<MeshConstantSpec> constant_keys() {
   Section<MeshConstantSpec> s("constant",
                               "A constant of a .geo script, which declares it as `DefineConstant[ size = {8, "
-                              "Name \"size\"} ];`: its value "
-                              "here instead of there.");
+                              "Name \"size\"} ];`: the value given here replaces the one in the script.");
   s.key("name", &MeshConstantSpec::name).doc("The constant's name in the script.");
   s.key("value", &MeshConstantSpec::value).doc("Its value, in the script's units.");
   return s;
@@ -90,7 +89,8 @@ Section<MeshGroupSpec> group_keys() {
       "group",
       "A name for volumes or surfaces of a geometry file (STEP, BREP, IGES, .geo), chosen by numbers, by "
       "label, or by a box that they lie in; or for faces of any mesh, chosen by the rules `owner`, `normal`, "
-      "`plane`, `nearest` and the box, all that are given together. `solidus mesh-info` lists them.");
+      "`plane`, `nearest` and the box; a face must obey all rules that are given. `solidus mesh-info` lists "
+      "them.");
   s.key("name", &G::name).doc("The name of the group, for bodies, conditions, contact.");
   s.choice("kind", &G::kind,
            {{"body", G::Kind::body, "volumes; of a plane geometry its surfaces"},
@@ -110,10 +110,10 @@ Section<MeshGroupSpec> group_keys() {
   s.quantity("highest", &G::highest, "m").initially(Value::list()).doc("The corner where they are largest.");
   s.key("owner", &G::owner)
       .initially("")
-      .doc("A rule for faces: those on the skin of this body (its group).");
+      .doc("A rule for faces: those on the outer surface of this body (its group).");
   s.key("normal", &G::normal)
       .initially(Value::list())
-      .doc("A rule for faces: those whose outward normal points there, a direction of any length.");
+      .doc("A rule for faces: those whose outward normal has this direction (a vector of any length).");
   s.quantity("angle", &G::angle, "rad")
       .initially("10 degree")
       .range(0, 3.15)
@@ -124,8 +124,8 @@ Section<MeshGroupSpec> group_keys() {
   s.quantity("nearest", &G::nearest, "m")
       .initially(Value::list())
       .doc(
-          "A rule for faces: those of the smooth part of a skin (up to edges of more than 30 degrees) that "
-          "comes nearest to this point.");
+          "A rule for faces: those of the smooth part of an outer surface (bounded by edges of more than 30 "
+          "degrees) that comes nearest to this point.");
   s.place(&G::where);
   return s;
 }
@@ -135,10 +135,12 @@ Section<MeshSizeSpec> size_keys() {
   using S = MeshSizeSpec;
   Section<S> s(
       "size",
-      "How large the elements of a body are, of a file that holds a geometry: solids (STEP, BREP, IGES), the "
-      "skin of one (STL), or a mesh, of which the skins are taken. With any of these sections "
+      "How large the elements of a body are where the file holds a geometry: solids (STEP, BREP, IGES), the "
+      "surface of one (STL), or a mesh, of which the outer surfaces of the bodies are taken. With any of "
+      "these sections "
       "sizes follow the thickness of walls and grow away from thin ones, bodies that touch are meshed "
-      "together, and meshing is tried in other ways until the least quality is above 0.15.");
+      "together, and the settings of the mesh generator are varied until the smallest quality of an element "
+      "is above 0.15.");
   s.key("body", &S::body).doc("The group of the mesh.");
   s.quantity("size", &S::size, "m").positive().doc("The largest size.");
   s.quantity("smallest", &S::smallest, "m")
@@ -147,11 +149,11 @@ Section<MeshSizeSpec> size_keys() {
   s.key("across", &S::across)
       .initially(2.0)
       .range(0, 20)
-      .doc("Elements through the thickness of a wall, about; 0: thickness does not count.");
+      .doc("Approximate number of elements through the thickness of a wall; 0: thickness does not count.");
   s.key("growth", &S::growth)
       .initially(0.4)
       .range(0.05, 2)
-      .doc("By how much sizes grow for each length away from smaller elements.");
+      .doc("Increase of the element size per length, away from smaller elements.");
   s.place(&S::where);
   return s;
 }
@@ -166,16 +168,15 @@ Section<MouldBlockSpec> mould_keys() {
       .at_least(0)
       .doc(
           "Thickness of its walls beyond the box around the parts: one for all, or six: lowest and highest "
-          "x, y and z. 0: the parts end where the mould does.");
+          "x, y and z. 0: the parts end where the mould ends.");
   s.key("core", &M::core)
       .initially("core")
-      .doc("What is mould in closed cavities of the parts gets this name, several core_1, core_2, ...");
+      .doc("Name of the mould in closed cavities of the parts; several are core_1, core_2, ...");
   s.key("bed", &M::bed)
       .initially(false)
       .doc(
-          "With [[mesh.coat]]: what of the block lies beyond the coats stays, as a bed of sand around the "
-          "shell; "
-          "else nothing is there.");
+          "With [[mesh.coat]]: the part of the block beyond the coats stays, as a bed of sand around the "
+          "shell; without it that part is empty.");
   s.place(&M::where);
   return s;
 }
@@ -183,14 +184,17 @@ Section<MouldBlockSpec> mould_keys() {
 /// Keys of a coat of an investment shell.
 Section<MeshCoatSpec> coat_keys() {
   using C = MeshCoatSpec;
-  Section<C> s("coat",
-               "A coat of a shell around everything that the geometry holds, as it is dipped for investment "
-               "casting: what of the block [mesh.mould] is no farther from the skin than this coat and those "
-               "before it are thick. Coats stand from the metal outward. Shells of neighbouring parts run "
-               "together, narrow holes are filled, and where the block ends with the parts (a wall of 0) the "
-               "shell is open.");
+  Section<C> s(
+      "coat",
+      "A coat of a shell around everything that the geometry holds, as it is dipped for investment casting: "
+      "the part of the block [mesh.mould] whose distance from the metal is at most the thickness of this "
+      "coat and those before it. Coats are listed from the metal outward. Shells of neighbouring parts "
+      "merge, narrow holes are filled, and where the block ends with the parts (a wall of 0) the "
+      "shell is open.");
   s.key("name", &C::name).doc("Its name, as a group of the mesh: a body.");
-  s.quantity("thickness", &C::thickness, "m").positive().doc("Its thickness, normal to the skin.");
+  s.quantity("thickness", &C::thickness, "m")
+      .positive()
+      .doc("Its thickness, normal to the surface of the metal.");
   s.place(&C::where);
   return s;
 }
@@ -210,9 +214,11 @@ Section<MeshLayersSpec> layers_keys() {
   using L = MeshLayersSpec;
   Section<L> s(
       "layers",
-      "Thin layers of a body's elements on one of its surfaces, for a mould whose elements are thicker "
-      "than the sand that is warm in the first minutes: a coarse mesh freezes too soon without them. "
-      "The body's own elements make room for them. Each costs about one node per node of the surface. "
+      "Thin layers of a body's elements on one of its surfaces, for a mould whose elements are thicker than "
+      "the sand that warms in the first minutes: without layers the casting freezes too soon on a coarse "
+      "mesh. "
+      "The other elements of the body are moved inward to make room for them. Each costs about one node per "
+      "node of the surface. "
       "Sections "
       "of one body with equal number and growth are made together: where their surfaces meet, so do the "
       "layers.");
@@ -228,7 +234,7 @@ Section<MeshLayersSpec> layers_keys() {
       .positive()
       .doc(
           "Thickness of the layer on the surface; without it all layers together are 0.8 times as thick as "
-          "an edge of the surface is long. Thinner where there is no room.");
+          "an edge of the surface is long. Layers are thinner where there is no room.");
   s.place(&L::where);
   return s;
 }
@@ -257,7 +263,7 @@ Section<MeshSpec> mesh_keys() {
           "there it is not needed, and another one is refused.");
   s.quantity("element_size", &MeshSpec::element_size, "m")
       .positive()
-      .doc("Element size for files that hold a geometry (.geo, STEP); without it as the file says.");
+      .doc("Element size for files that hold a geometry (.geo, STEP); without it that of the file.");
   s.key("order", &MeshSpec::order)
       .initially(1)
       .range(1, 2)
@@ -272,14 +278,15 @@ Section<MeshSpec> mesh_keys() {
   s.key("conforming", &MeshSpec::conforming)
       .initially(false)
       .doc(
-          "For STEP, BREP and IGES: bodies that touch share the faces between them, and so the nodes. Else "
-          "each has its own, for contact.");
+          "For STEP, BREP and IGES: bodies that touch share the faces between them, and so the nodes. "
+          "Otherwise each body has faces and nodes of its own, for contact.");
   s.key("way", &MeshSpec::way)
       .initially(0)
       .range(0, 9)
       .doc(
-          "With [[mesh.size]]: the number of the way of meshing that is taken, whatever the quality of its "
-          "elements is; 0: one way after the other. `solidus new` writes it where several had to be tried.");
+          "With [[mesh.size]]: the number of the way of meshing (a set of settings of the mesh generator) "
+          "that is used, whatever the quality of its elements; 0: they are tried in turn until one gives "
+          "sound elements. `solidus new` writes this key where several had to be tried.");
   s.sections("size", &MeshSpec::sizes, size_keys());
   s.section("mould", &MeshSpec::mould, mould_keys());
   s.sections("coat", &MeshSpec::coats, coat_keys());

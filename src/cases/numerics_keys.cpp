@@ -28,23 +28,23 @@ Section<heat::HeatOptions> heat_keys() {
   using heat::HeatOptions;
   Section<HeatOptions> s("heat", "Numerics of the thermal phase.");
   s.choice("integration", &HeatOptions::integration,
-           {{"closed", HeatIntegration::closed, "heat content at the nodes: no over- or undershoot"},
+           {{"closed", HeatIntegration::closed, "at the nodes: no over- or undershoot"},
             {"open", HeatIntegration::open,
-             "heat content at Gauss points, at the nodes of bodies whose material has an isothermal change"}})
+             "at Gauss points, but at the nodes of bodies whose material has an isothermal change"}})
       .initially("closed")
-      .doc("Where heat content is integrated (monograph 6.3).");
+      .doc("Where in an element the heat content is integrated (monograph 6.3).");
   using heat::ThermalStepping;
   s.choice(
        "stepping", &HeatOptions::stepping,
        {{"automatic", std::nullopt,
          "sdirk2, but backward_euler with inertia, with forms of structural heat of first order and in "
-         "schemes with an integration of their own"},
+         "schemes that have their own time integration"},
         {"sdirk2", ThermalStepping::sdirk2,
          "two implicit stages, second order, L-stable (Alexander 1977); a step that would overshoot is of "
          "first order"},
         {"backward_euler", ThermalStepping::backward_euler, "one stage, first order"}})
       .initially("automatic")
-      .doc("Integration in time, of heat alone and in schemes whose thermal phase is solved by itself.");
+      .doc("Integration in time, with heat alone and in schemes whose thermal phase is solved by itself.");
   s.key("open_degree", &HeatOptions::open_degree)
       .initially(0)
       .range(0, 10)
@@ -53,10 +53,10 @@ Section<heat::HeatOptions> heat_keys() {
       .initially(0.0)
       .range(0, 0.1)
       .doc(
-          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-6 "
-          "where "
-          "nodes hold the heat (closed rule), which take up the rest, so that energy is exact for every "
-          "tolerance; else 1e-9, because there the rest is heat lost or gained.");
+          "Newton stops when the residual falls below this fraction of the heat moved in the step. 0: 1e-6 "
+          "with the closed rule, where the nodes store the remaining residual as heat, so that energy is "
+          "conserved with every tolerance; else 1e-9, because there the remaining residual is heat lost or "
+          "gained.");
   s.key("max_iterations", &HeatOptions::max_iterations)
       .initially(50)
       .range(1, 1000)
@@ -70,9 +70,9 @@ Section<heat::HeatOptions> heat_keys() {
   s.key("edges", &HeatOptions::edges)
       .initially(true)
       .doc(
-          "Corrects conduction in linear triangles and tetrahedra that touch re-entrant edges of a body, "
-          "such as "
-          "the sand along the rims of a casting, where they conduct too well (docs/theory/thermal.md).");
+          "Corrects conduction in linear triangles and tetrahedra at re-entrant edges of a body, such as the "
+          "sand along the rims of a casting, where these elements conduct too well "
+          "(docs/theory/thermal.md).");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }
@@ -85,34 +85,34 @@ void equilibrium_keys(Section<MechanicsSpec>& s) {
       .initially(1e-5)
       .range(1e-14, 0.1)
       .doc(
-          "Newton stops when the residual falls below this share of the forces that a body exchanges; the "
-          "monograph has 1e-3 (chapter 7).");
+          "Newton stops when the residual falls below this fraction of the forces on a body; the monograph "
+          "uses 1e-3 (chapter 7).");
   s.key("displacement_tolerance", &MechanicsSpec::displacement_tolerance)
       .initially(1e-3)
       .range(0, 1)
       .doc(
-          "And when the next step would change the displacement by less than this share of what the time "
-          "step has moved the body: forces in balance say little of a casting that hardly anything holds. "
-          "0: the forces alone, the criterion of the monograph.");
+          "Newton's second criterion: the next iteration would change the displacement by less than this "
+          "fraction of the body's displacement in the time step. The residual alone says little about a "
+          "casting that is hardly held. 0: the residual alone, the criterion of the monograph.");
   s.key("max_iterations", &MechanicsSpec::max_iterations)
       .initially(50)
       .range(1, 1000)
       .doc("Newton iterations before a step is cut.");
   s.key("line_search", &MechanicsSpec::line_search)
       .initially(true)
-      .doc("Shorten Newton's steps where they do not help.");
+      .doc("Shorten Newton's steps where the full step does not reduce the residual or the energy enough.");
   s.key("inexact_newton", &MechanicsSpec::inexact)
       .initially(true)
       .doc(
-          "An iterative solver goes only as far as the Newton iteration gains by (Eisenstat and Walker "
-          "1996); false: always to linear_tolerance. Newton's criterion is the same. Also of a "
+          "Linear systems are solved only as accurately as the Newton iteration needs (Eisenstat and Walker "
+          "1996); false: always to linear_tolerance. Newton's criterion is the same. It also holds for a "
           "scheme that solves both fields at once.");
   s.key("linear_tolerance", &MechanicsSpec::linear_tolerance)
       .initially(1e-8)
       .range(1e-15, 0.1)
       .doc(
-          "Residual of a linear system over its right-hand side below which no iterative solver goes. Also "
-          "of a scheme that solves both fields at once.");
+          "Smallest relative residual to which an iterative solver solves a linear system. It also holds for "
+          "a scheme that solves both fields at once.");
 }
 
 /// Declares the elements and their stabilisation.
@@ -120,8 +120,8 @@ void formulation_keys(Section<MechanicsSpec>& s) {
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
       .doc(
-          "Volumetric strain of quads and hexahedra: constant in an element of first order, linear in one of "
-          "second order (Q1/P0 and Q2/P1, monograph 6.2): no locking.");
+          "Averages the volumetric strain of quads and hexahedra: constant in an element of first order, "
+          "linear in one of second order (Q1/P0 and Q2/P1, monograph 6.2), so that they do not lock.");
   using mechanics::Simplices;
   s.choice("simplices", &MechanicsSpec::simplices,
            {{"automatic", Simplices::automatic,
@@ -130,14 +130,14 @@ void formulation_keys(Section<MechanicsSpec>& s) {
             {"mixed", Simplices::mixed, "displacement and continuous pressure, stabilised: no locking"},
             {"displacement", Simplices::displacement, "displacement alone, which locks in plastic flow"}})
       .initially("automatic")
-      .doc("Formulation of linear triangles and tetrahedra; other shapes have b_bar.");
+      .doc("Formulation of linear triangles and tetrahedra; for other shapes see b_bar.");
   using mechanics::Stabilisation;
   s.choice("stabilisation", &MechanicsSpec::stabilisation,
            {{"automatic", Stabilisation::automatic, "algebraic in quasi-statics, orthogonal with inertia"},
             {"orthogonal", Stabilisation::orthogonal, "orthogonal sub-grid scales"},
             {"algebraic", Stabilisation::algebraic, "algebraic sub-grid scales, without inertia"}})
       .initially("automatic")
-      .doc("Of the pressure of mixed triangles and tetrahedra (Codina 2000).");
+      .doc("Stabilisation of the pressure in mixed triangles and tetrahedra (Codina 2000).");
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ Section<MechanicsSpec> mechanics_keys() {
          "two-step method of second order; the first step, and one more than 2.4 times as long as the one "
          "before, by backward Euler"}})
       .initially("backward_euler")
-      .doc("How inelastic strains advance in time (monograph 4.64-4.73).");
+      .doc("Time integration of inelastic strains (monograph 4.64-4.73).");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -mechanics_ change it further.");
   return s;
 }
@@ -166,12 +166,12 @@ Section<CouplingSpec> coupling_keys() {
   s.place(&CouplingSpec::where);
   s.kinds("scheme", &CouplingSpec::scheme, coupling::schemes())
       .initially(std::string(coupling::default_scheme()->name()))
-      .doc("The coupling scheme. With heat or mechanics alone there is nothing to couple.");
+      .doc("The coupling scheme; without effect with heat or mechanics alone.");
   using Heating = CouplingSpec::StructuralHeatForm;
   s.choice(
        "structural_heating", &CouplingSpec::structural_heating,
        {{"energy", Heating::energy,
-         "difference of the structural energy, less the stress power: closes the first law"},
+         "difference of the structural energy, less the stress power: conserves energy"},
         {"entropy", Heating::entropy,
          "temperature x difference of the structural entropy, less dissipation (4.43a; isothermal: 4.48a "
          "with 4.50 collapsed)"},
@@ -188,12 +188,13 @@ Section<CouplingSpec> coupling_keys() {
       .initially(false)
       .doc(
           "Sensible heat in the form of `structural_heating` too, as the monograph prints it: temperature x "
-          "difference of entropy, or capacity x difference of temperature. Loses heat at second order.");
+          "difference of entropy, or capacity x difference of temperature. Each step loses heat of second "
+          "order in the step.");
   s.quantity("ambient_temperature", &CouplingSpec::ambient_temperature, "K")
       .positive()
       .doc(
-          "Of the stability functional 2.24; without it the common temperature of the surroundings, or the "
-          "lowest initial temperature.");
+          "Reference temperature of the stability functional 2.24; without it the common temperature of the "
+          "surroundings, or the lowest initial temperature.");
   return s;
 }
 

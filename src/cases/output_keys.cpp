@@ -24,9 +24,9 @@ Section<ProbeSpec> probe_keys() {
             {"integral", P::Kind::integral, "its integral over a group"},
             {"difference", P::Kind::difference, "the difference of two other probes"},
             {"global", P::Kind::global,
-             "a column that history.csv has anyway, under another name, times a factor"}})
+             "a column that history.csv always has, under another name, times a factor"}})
       .initially("point")
-      .doc("What is taken.");
+      .doc("What is evaluated.");
   s.key("field", &P::field).choices(coupling::field_names(true)).when("kind", k_sampling).doc("The field.");
   s.key("component", &P::component)
       .initially("")
@@ -36,7 +36,7 @@ Section<ProbeSpec> probe_keys() {
           "(axial), rr, zz (axial), "
           "tt (hoop) and rz.");
   s.quantity("point", &P::point, "m").when("kind", {"point"}).doc("Coordinates of the point.");
-  s.key("body", &P::body).when("kind", {"point"}).doc("The body that is meant, where a point lies on two.");
+  s.key("body", &P::body).when("kind", {"point"}).doc("The body to evaluate, where a point lies on two.");
   s.key("group", &P::group)
       .when("kind", {"mean", "minimum", "maximum", "integral"})
       .doc("Group of the mesh: a body or a surface.");
@@ -50,8 +50,8 @@ Section<ProbeSpec> probe_keys() {
       .doc("What it is multiplied with: 0.01 for the force on 10 mm of a body in plane strain.");
   s.key("unit", &P::unit)
       .doc(
-          "Unit of the column: \"degC\", \"mm\"; \"1\" for a fraction; of kind = \"global\" also \"\", the "
-          "number as it is under its mere name.");
+          "Unit of the column: \"degC\", \"mm\"; \"1\" for a fraction; with kind = \"global\" also \"\": no "
+          "conversion, and a header without unit.");
   s.place(&P::where);
   return s;
 }
@@ -78,8 +78,8 @@ Section<ProfileColumnSpec> profile_column_keys() {
 Section<ProfileSpec> profile_keys() {
   using P = ProfileSpec;
   Section<P> s("profile",
-               "A table NAME.csv of fields along a group of nodes: a row a node, with its coordinates. It is "
-               "written with the fields, and holds the last moment.");
+               "A table NAME.csv of fields along a group of nodes: one row per node, with its coordinates. "
+               "It is written whenever fields are, and replaced each time.");
   s.key("name", &P::name).doc("A name of your choice: that of the file.");
   s.key("group", &P::group).doc("Group of the mesh: a surface, a body, points.");
   s.key("length_unit", &P::length_unit).initially("mm").doc("Unit of the coordinates.");
@@ -105,7 +105,7 @@ Section<OutputSpec> output_keys() {
   s.key("fields", &OutputSpec::fields)
       .initially(Value::list())
       .choices(coupling::field_names(false))
-      .doc("The fields to write; empty: all there are.");
+      .doc("The fields to write; empty: all except those that are written on request only.");
   s.key("vtkhdf", &OutputSpec::vtkhdf)
       .initially(false)
       .doc(
@@ -115,10 +115,10 @@ Section<OutputSpec> output_keys() {
   s.key("checkpoint_every", &OutputSpec::checkpoint_every)
       .at_least(1)
       .doc(
-          "A checkpoint is written after each so many steps, besides those at every time at which fields are "
-          "written and where a run stops.");
+          "A checkpoint is written every so many steps, in addition to those at every time at which fields "
+          "are written and at the end of a run.");
   s.key("folder", &OutputSpec::folder)
-      .doc("Results folder; `-o` goes before it, without both results/CASE/VARIANT.");
+      .doc("Results folder; `-o` takes precedence; without both it is results/CASE/VARIANT.");
   s.key("length_unit", &OutputSpec::length_unit)
       .initially("mm")
       .doc("Unit of places, gaps and distortion in the answers at the end of a run: \"mm\", \"inch\".");

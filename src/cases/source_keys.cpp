@@ -18,11 +18,13 @@ void shape_keys(Section<SourceSpec>& s) {
   s.quantity("width", &S::width, "m")
       .positive()
       .when("kind", {"double_ellipsoid"})
-      .doc("Half the width a, across the way; exp(-3) of the peak lies there, as on the other axes.");
+      .doc(
+          "Semi-axis a, across the path: there the power density is exp(-3) of its peak, as at the end of "
+          "the other semi-axes.");
   s.quantity("depth", &S::depth, "m")
       .positive()
       .when("kind", {"double_ellipsoid", "cylinder", "line"})
-      .doc("Depth b, along `direction`.");
+      .doc("Semi-axis b in depth, or the depth of the cylinder or line, along `direction`.");
   s.quantity("front", &S::front, "m")
       .positive()
       .when("kind", {"double_ellipsoid"})
@@ -35,9 +37,8 @@ void shape_keys(Section<SourceSpec>& s) {
       .range(0, 1)
       .when("kind", {"double_ellipsoid"})
       .doc(
-          "Share of the power in front of the centre; without it front/(front + rear), with which nothing "
-          "jumps "
-          "at the centre.");
+          "Share of the power in front of the centre; without it front/(front + rear), with which the power "
+          "density is continuous at the centre.");
   s.key("direction", &S::direction)
       .initially(Value::list())
       .doc("Direction of the beam into the metal, of any length; empty: down the last axis.");
@@ -72,12 +73,12 @@ Section<PathSpec> path_keys(const std::string& doc) {
 Section<SourceSpec> source_keys() {
   using S = SourceSpec;
   using Kind = heat::TravellingShape::Kind;
-  Section<S> s(
-      "source",
-      "Heat that travels along a path: a torch, a laser, an electron beam. It is on from the first point "
-      "of its path to the last. For heat that stands still or fills a body: [[thermal_condition]].");
+  Section<S> s("source",
+               "Heat that travels along a path: a torch, a laser, an electron beam. It is on from the first "
+               "point of its path to the last. For heat that does not move, or that is released in a whole "
+               "body: [[thermal_condition]].");
   s.key("name", &S::name).doc("A name of your choice; history.csv has its power by this name.");
-  s.key("group", &S::groups).or_one().doc("The bodies that it heats; for kind = \"gaussian\" the surfaces.");
+  s.key("group", &S::groups).or_one().doc("The bodies that it heats; with kind = \"gaussian\" the surfaces.");
   s.choice("kind", &S::kind,
            {{"double_ellipsoid", Kind::double_ellipsoid,
              "Goldak's: two quarters of ellipsoids, in front and behind; below a surface"},
@@ -95,7 +96,8 @@ Section<SourceSpec> source_keys() {
       .range(0, 1)
       .doc("Share of the power that reaches the metal.");
   shape_keys(s);
-  s.section("path", &S::path, path_keys("The path of the source: of its point on the surface of the metal."));
+  s.section("path", &S::path,
+            path_keys("The path of the source: of its centre on the surface of the metal."));
   s.key("step_share", &S::step_share)
       .initially(0.5)
       .range(0.01, 10)
@@ -110,18 +112,18 @@ Section<SourceSpec> source_keys() {
 /// Keys of [[deposition]].
 Section<DepositionSpec> deposition_keys() {
   using D = DepositionSpec;
-  Section<D> s(
-      "deposition",
-      "A body that comes element by element, at its initial temperature: each takes part from its birth "
-      "on. In heat alone so far (physics = \"heat\").");
+  Section<D> s("deposition",
+               "A body that is deposited element by element, at its initial temperature: each element takes "
+               "part from its birth on. In heat alone so far (physics = \"heat\").");
   s.key("name", &D::name).doc("A name of your choice.");
   s.key("body", &D::body).doc("Group of the mesh: the body that grows.");
   s.choice("kind", &D::kind,
            {{"front", D::Kind::front,
-             "an element is born when a plane that moves reaches its centre; what is behind the plane at its "
-             "start is there"},
-            {"path", D::Kind::path, "when the point of a path passes its centre, within `width` and `depth`"},
-            {"times", D::Kind::times, "at the time of its centre"}})
+             "an element is born when a moving plane reaches its centre; elements behind the plane at its "
+             "start exist from the start"},
+            {"path", D::Kind::path,
+             "when the point that follows a path passes its centre, within `width` and `depth`"},
+            {"times", D::Kind::times, "at the time that `time` gives at its centre"}})
       .doc("What decides when an element is born.");
   s.quantity("from", &D::from, "m")
       .initially(Value::list())
@@ -139,7 +141,8 @@ Section<DepositionSpec> deposition_keys() {
       .doc("When the plane begins to move.");
   s.section(
       "path", &D::path,
-      path_keys("The path of a deposition of kind = \"path\": of the middle of the upper side of its bead."));
+      path_keys(
+          "The path of a deposition of kind = \"path\": of the centre line of the upper side of its bead."));
   s.quantity("width", &D::width, "m").positive().when("kind", {"path"}).doc("Width of the bead.");
   s.quantity("depth", &D::depth, "m")
       .positive()
@@ -152,20 +155,18 @@ Section<DepositionSpec> deposition_keys() {
   s.function("time", &D::time, "s")
       .anywhere(Key::Place::position)
       .when("kind", {"times"})
-      .doc("When an element is born; not after zero: it is there from the start.");
+      .doc("When an element is born; with zero or less it exists from the start.");
   s.quantity("interval", &D::interval, "s")
       .positive()
       .doc(
-          "Births are gathered to multiples of this time; without it elements are born at up to 400 "
-          "different "
+          "Births are moved to multiples of this time; without it elements are born at up to 400 different "
           "times. Adaptive steps end there.");
   s.key("bare", &D::bare)
       .initially("")
       .doc(
-          "Surface group of the mesh whose conditions act on faces inside the mesh too, as long as there is "
-          "an "
-          "element on one of their sides alone; empty: such faces are insulated. Faces of a group that are "
-          "covered leave it in any case.");
+          "Surface group of the mesh whose conditions also act on faces inside the mesh, as long as there is "
+          "an element on one side only; empty: such faces are insulated. Faces that get covered leave their "
+          "group in any case.");
   s.place(&D::where);
   return s;
 }

@@ -18,7 +18,9 @@ Section<StageSpec> stage_keys() {
       .doc("Its time step, where steps are adaptive the first one; without it `step` of [time].");
   s.key("steps", &S::steps)
       .range(1, 1e8)
-      .doc("Instead of `step`: how many steps of one size; where steps are adaptive, for the first one.");
+      .doc(
+          "Instead of `step`: the number of equal steps; where steps are adaptive it gives the size of the "
+          "first one.");
   s.quantity("min_step", &S::min_step, "s").positive().doc("As in [time], for this stage.");
   s.quantity("max_step", &S::max_step, "s").positive().doc("As in [time], for this stage.");
   s.place(&S::where);
@@ -35,21 +37,20 @@ Section<CycleSpec> cycle_keys() {
       .doc("Its stages, which follow one another in the file, in their order.");
   s.key("repeat", &C::repeat)
       .range(1, 1e6)
-      .doc("How often they are run through, all times together; with `periodic` at most.");
+      .doc("How often they are run through in total; with `periodic` at most so often.");
   s.quantity("periodic", &C::periodic, "K")
       .positive()
       .difference()
       .doc(
-          "End the run after a round in which no place of the bodies that stay changed its temperature by "
-          "more "
-          "than this, from the start of the round to its end; the cycle is the last one of the case.");
-  s.choice(
-       "search", &C::search,
-       {{"anderson", C::Search::anderson,
-         "by Anderson's method: before a round the temperatures of the bodies that stay are moved to where "
-         "the last rounds say that they will end, so that rounds are no history of a die that warms up"},
-        {"repetition", C::Search::repetition,
-         "round after round, as in the foundry; takes three times as many and more"}})
+          "End the run after a round in which no temperature of the bodies that stay in the cycle (the die) "
+          "changed by more than this between the start of the round and its end. The cycle must be the last "
+          "one of the case.");
+  s.choice("search", &C::search,
+           {{"anderson", C::Search::anderson,
+             "by Anderson's method: before a round the temperatures of the bodies that stay are extrapolated "
+             "from the last rounds to the periodic state, so that the rounds do not show how a die warms up"},
+            {"repetition", C::Search::repetition,
+             "round after round, as in the foundry; takes three times as many and more"}})
       .initially("anderson")
       .doc("How the periodic state is found; needs `periodic`.");
   s.place(&C::where);

@@ -47,9 +47,9 @@ Section<ContactFactors> contact_vary_keys() {
   Section<ContactFactors> s("contact",
                             "Of the heat through a contact, by its name; that of an interface is A_B.");
   factor_key(s, "conductance", &ContactFactors::conductance, "On the conductance of contact. A factor.");
-  factor_key(
-      s, "gap", &ContactFactors::gap,
-      "On what the open gap conducts beyond the resistance of contact, of the gas for example. A factor.");
+  factor_key(s, "gap", &ContactFactors::gap,
+             "On the conductance of the open gap (for example of its gas), which lies in series with the "
+             "resistance of contact. A factor.");
   return s;
 }
 
@@ -64,7 +64,8 @@ Section<ConditionFactors> condition_vary_keys() {
 
 /// Keys of the spreads of a body.
 Section<BodySpreads> body_spread_keys() {
-  Section<BodySpreads> s("body", "Of a body, by its name, in place of what the card of its material says.");
+  Section<BodySpreads> s("body",
+                         "Of a body, by its name; it replaces the spread in the file of its material.");
   for (const material::VariedProperty& row : material::varied_properties()) {
     std::optional<material::Spread> BodySpreads::*const member = row.spread;
     s.section(row.key, member, material::spread_keys()).doc(row.doc);
@@ -204,7 +205,7 @@ Section<ContactSpreads> contact_spread_keys(const char* name, const char* doc) {
   s.section("conductance", &ContactSpreads::conductance, material::spread_keys())
       .doc("Of the conductance of contact.");
   s.section("gap", &ContactSpreads::gap, material::spread_keys())
-      .doc("Of what the open gap conducts beyond the resistance of contact.");
+      .doc("Of the conductance of the open gap, which lies in series with the resistance of contact.");
   return s;
 }
 
@@ -217,8 +218,8 @@ void check_spreads(const ContactSpreads& spreads, const std::string& of) {
 /// Keys of [vary]: factors and shifts by which a study varies a case.
 Section<VarySpec> vary_keys() {
   Section<VarySpec> s("vary",
-                      "Factors and shifts on data of the case, whole tables at a time: for studies, and what "
-                      "`solidus uncertain` changes from run to run.");
+                      "Factors and shifts on data of the case, for whole tables: for studies; `solidus "
+                      "uncertain` changes them from run to run.");
   s.named_sections("body", &VarySpec::bodies, body_vary_keys());
   s.named_sections("contact", &VarySpec::contacts, contact_vary_keys());
   s.named_sections("thermal_condition", &VarySpec::conditions, condition_vary_keys());
@@ -227,10 +228,9 @@ Section<VarySpec> vary_keys() {
 }
 
 Section<SpreadSpec> spread_keys_of_case() {
-  Section<SpreadSpec> s(
-      "spread",
-      "How far data of the case may be off, for `solidus uncertain`; a run does not look at "
-      "it. Names as in [vary].");
+  Section<SpreadSpec> s("spread",
+                        "How far data of the case may differ from the true values, for `solidus uncertain`; "
+                        "a run ignores it. Names as in [vary].");
   s.named_sections("body", &SpreadSpec::bodies, body_spread_keys());
   s.named_sections("contact", &SpreadSpec::contacts,
                    contact_spread_keys("contact", "Of the heat through a contact, by its name."));

@@ -9,18 +9,19 @@ namespace solidus::criteria::fields {
 
 using quantities::Quantity;
 
-inline constexpr Quantity k_solidified_at{.name = "solidified_at",
-                                          .unit = "s",
-                                          .label = "Solid at (time)",
-                                          .doc = "Time since pouring at which the metal was solid",
-                                          .group = quantities::Group::criteria,
-                                          .needs = {.heat = true, .melting = true},
-                                          .no_value = -1,
-                                          .kept = quantities::Kept::last,
-                                          .worst = quantities::Extreme::greatest,
-                                          .headline = "Freezes last",
-                                          .compared = true,
-                                          .pictured = true};
+inline constexpr Quantity k_solidified_at{
+    .name = "solidified_at",
+    .unit = "s",
+    .label = "Solid at (time)",
+    .doc = "Time since the start of the run at which the metal became solid",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .headline = "Freezes last",
+    .compared = true,
+    .pictured = true};
 
 inline constexpr Quantity k_local_solidification_time{.name = "local_solidification_time",
                                                       .unit = "s",
@@ -75,22 +76,23 @@ inline constexpr Quantity k_secondary_arm_spacing{.name = "secondary_arm_spacing
                                                   .answer = "largest arm spacing",
                                                   .shown_as = {"um", "µm", 1e6}};
 
-inline constexpr Quantity k_niyama{
-    .name = "niyama",
-    .unit = "1",
-    .root_unit = "K^0.5 s^0.5/m",
-    .label = "Niyama criterion",
-    .doc = "Niyama criterion, gradient over the root of the cooling rate: low values feed badly",
-    .group = quantities::Group::criteria,
-    .needs = {.heat = true, .melting = true},
-    .no_value = 0,
-    .kept = quantities::Kept::last,
-    .worst = quantities::Extreme::least,
-    .headline = "Least Niyama",
-    .answer = "least Niyama",
-    .compared = true,
-    .pictured = true,
-    .shown_as = {"K0.5 s0.5/mm", "√(K s)/mm", 1e-3}};
+inline constexpr Quantity k_niyama{.name = "niyama",
+                                   .unit = "1",
+                                   .root_unit = "K^0.5 s^0.5/m",
+                                   .label = "Niyama criterion",
+                                   .doc =
+                                       "Niyama criterion, temperature gradient over the square root of the "
+                                       "cooling rate: where it is low, shrinkage porosity threatens",
+                                   .group = quantities::Group::criteria,
+                                   .needs = {.heat = true, .melting = true},
+                                   .no_value = 0,
+                                   .kept = quantities::Kept::last,
+                                   .worst = quantities::Extreme::least,
+                                   .headline = "Least Niyama",
+                                   .answer = "least Niyama",
+                                   .compared = true,
+                                   .pictured = true,
+                                   .shown_as = {"K0.5 s0.5/mm", "√(K s)/mm", 1e-3}};
 
 inline constexpr Quantity k_dimensionless_niyama{.name = "dimensionless_niyama",
                                                  .unit = "1",
@@ -122,7 +124,7 @@ inline constexpr Quantity k_critical_strain_rate{
     .name = "critical_strain_rate",
     .unit = "1/s",
     .label = "Critical strain rate",
-    .doc = "Strain rate across the mush above which a hot tear may open, by Rappaz, Drezet and Gremaud",
+    .doc = "Strain rate across the dendrites above which a hot tear may open, by Rappaz, Drezet and Gremaud",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
@@ -137,8 +139,8 @@ inline constexpr Quantity k_tearing_tendency{
     .unit = "1",
     .label = "Tearing tendency (ends held)",
     .doc =
-        "Drop of the melt's pressure if the ends of the casting were held and all of it cooled as this place "
-        "does, over the critical one: above 1 a tear may open",
+        "Pressure drop of the melt over the critical one, for a casting held at its ends that cools "
+        "everywhere as at this place: above 1 a tear may open",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
@@ -162,21 +164,22 @@ inline constexpr Quantity k_vulnerable_share{
     .worst = quantities::Extreme::greatest,
     .answer = "Clyne and Davies' ratio"};
 
-inline constexpr Quantity k_plate_thickness{.name = "plate_thickness",
-                                            .unit = "m",
-                                            .label = "Thickness by freezing time",
-                                            .doc =
-                                                "Thickness of the plate that would freeze in the same time "
-                                                "in the same mould: twice the modulus of the place",
-                                            .group = quantities::Group::criteria,
-                                            .needs = {.heat = true, .melting = true},
-                                            .no_value = 0,
-                                            .kept = quantities::Kept::last,
-                                            .worst = quantities::Extreme::greatest,
-                                            .answer = "thickest place by its freezing time",
-                                            .compared = true,
-                                            .pictured = true,
-                                            .shown_as = {"mm", "mm", 1e3}};
+inline constexpr Quantity k_plate_thickness{
+    .name = "plate_thickness",
+    .unit = "m",
+    .label = "Thickness by freezing time",
+    .doc =
+        "Thickness of the plate that would freeze in the same time in the same mould: twice the modulus "
+        "(volume over cooling surface) of the place",
+    .group = quantities::Group::criteria,
+    .needs = {.heat = true, .melting = true},
+    .no_value = 0,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .answer = "thickest place by its freezing time",
+    .compared = true,
+    .pictured = true,
+    .shown_as = {"mm", "mm", 1e3}};
 
 inline constexpr Quantity k_liquid_pool{.name = "liquid_pool",
                                         .unit = "1",
@@ -201,8 +204,8 @@ inline constexpr Quantity k_feeding_zone{
     .unit = "1",
     .label = "Feeding zone",
     .doc =
-        "Number of the pool of melt that fed the place last, before its solid fraction passed "
-        "criteria.feeding_limit; 0: it has been in none",
+        "Number of the pool of melt that the place belonged to last, before its solid fraction passed "
+        "criteria.feeding_limit; 0: none",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = 0,
@@ -211,7 +214,7 @@ inline constexpr Quantity k_feeding_zone{
 inline constexpr Quantity k_strain_in_liquid{.name = "strain_in_liquid",
                                              .unit = "1",
                                              .label = "Strain in the melt",
-                                             .doc = "Equivalent strain that was taken below coherency",
+                                             .doc = "Equivalent strain accumulated below coherency",
                                              .group = quantities::Group::criteria,
                                              .place = quantities::Place::element,
                                              .needs = {.mechanics = true, .melting = true},
@@ -234,7 +237,7 @@ inline constexpr Quantity k_brittle_strain{
     .name = "brittle_strain",
     .unit = "1",
     .label = "Strain in the brittle range",
-    .doc = "Largest principal strain taken in the brittle range of solid fractions",
+    .doc = "Largest principal strain accumulated in the brittle range of solid fractions",
     .group = quantities::Group::criteria,
     .place = quantities::Place::element,
     .needs = {.mechanics = true, .melting = true},
@@ -259,7 +262,7 @@ inline constexpr Quantity k_emptied{
     .name = "emptied",
     .unit = "1",
     .label = "Emptied (pipe, cavity)",
-    .doc = "Share of the room around a node that metal has left, with heat alone: pipe, sink, cavity",
+    .doc = "Empty fraction of the volume around a node, with heat alone: pipe, sink, cavity",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .kept = quantities::Kept::every,
@@ -272,8 +275,8 @@ inline constexpr Quantity k_unfed_pores{.name = "unfed_pores",
                                         .unit = "1",
                                         .label = "Pores (feeding)",
                                         .doc =
-                                            "Pores between dendrites that melt did not reach, as a share of "
-                                            "the room around a node, with heat alone",
+                                            "Pores between dendrites that melt did not reach, as a fraction "
+                                            "of the volume around a node, with heat alone",
                                         .group = quantities::Group::criteria,
                                         .needs = {.heat = true, .melting = true},
                                         .kept = quantities::Kept::every,
@@ -288,7 +291,7 @@ inline constexpr Quantity k_gas_pores{.name = "gas_pores",
                                       .label = "Gas pores",
                                       .doc =
                                           "Pores of gas that came out of solution as the metal froze, as a "
-                                          "share of the room around a node",
+                                          "fraction of the volume around a node",
                                       .group = quantities::Group::criteria,
                                       .needs = {.heat = true, .melting = true},
                                       .kept = quantities::Kept::every,
@@ -303,8 +306,8 @@ inline constexpr Quantity k_kou_index{
     .unit = "K",
     .label = "Kou's index",
     .doc =
-        "Slope of the temperature over the root of the solid fraction near the end of freezing, by Kou: the "
-        "steeper, the longer grains stay apart while they contract",
+        "Slope of the temperature over the square root of the solid fraction near the end of freezing, by "
+        "Kou: the steeper, the longer grains stay apart while they contract",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
@@ -313,49 +316,49 @@ inline constexpr Quantity k_kou_index{
     .answer = "Kou's index",
     .shown_as = {"K", "K"}};
 
-inline constexpr Quantity k_strained_tendency{.name = "strained_tendency",
-                                              .unit = "1",
-                                              .label = "Tearing tendency (strain taken)",
-                                              .doc =
-                                                  "Drop of the melt's pressure at the strain rate that the "
-                                                  "mush takes, over the critical one: above 1 a "
-                                                  "tear may open",
-                                              .group = quantities::Group::criteria,
-                                              .place = quantities::Place::element,
-                                              .needs = {.heat = true, .mechanics = true, .melting = true},
-                                              .no_value = -1,
-                                              .kept = quantities::Kept::last,
-                                              .worst = quantities::Extreme::greatest,
-                                              .headline = "Tearing tendency (strain)",
-                                              .answer = "tearing tendency, strain taken",
-                                              .threshold = 1,
-                                              .compared = true,
-                                              .pictured = true};
+inline constexpr Quantity k_strained_tendency{
+    .name = "strained_tendency",
+    .unit = "1",
+    .label = "Tearing tendency (strain taken)",
+    .doc =
+        "Pressure drop of the melt at the computed strain rate of the mushy zone, over the critical one: "
+        "above 1 a tear may open",
+    .group = quantities::Group::criteria,
+    .place = quantities::Place::element,
+    .needs = {.heat = true, .mechanics = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .headline = "Tearing tendency (strain)",
+    .answer = "tearing tendency, strain taken",
+    .threshold = 1,
+    .compared = true,
+    .pictured = true};
 
-inline constexpr Quantity k_cracking_index{.name = "cracking_index",
-                                           .unit = "1",
-                                           .label = "Cracking index (Won, Yeo)",
-                                           .doc =
-                                               "Strain taken in the brittle range of solid fractions over "
-                                               "the critical one of Won, Yeo, Seol and Oh: "
-                                               "above 1 an internal crack may form",
-                                           .group = quantities::Group::criteria,
-                                           .place = quantities::Place::element,
-                                           .needs = {.heat = true, .mechanics = true, .melting = true},
-                                           .no_value = -1,
-                                           .kept = quantities::Kept::last,
-                                           .worst = quantities::Extreme::greatest,
-                                           .headline = "Cracking index",
-                                           .answer = "cracking index, strain taken",
-                                           .threshold = 1,
-                                           .compared = true,
-                                           .pictured = true};
+inline constexpr Quantity k_cracking_index{
+    .name = "cracking_index",
+    .unit = "1",
+    .label = "Cracking index (Won, Yeo)",
+    .doc =
+        "Strain accumulated in the brittle range of solid fractions over the critical one of Won, Yeo, Seol "
+        "and Oh: above 1 an internal crack may form",
+    .group = quantities::Group::criteria,
+    .place = quantities::Place::element,
+    .needs = {.heat = true, .mechanics = true, .melting = true},
+    .no_value = -1,
+    .kept = quantities::Kept::last,
+    .worst = quantities::Extreme::greatest,
+    .headline = "Cracking index",
+    .answer = "cracking index, strain taken",
+    .threshold = 1,
+    .compared = true,
+    .pictured = true};
 
 inline constexpr Quantity k_tensile_strength{
     .name = "tensile_strength",
     .unit = "Pa",
     .label = "Tensile strength (by table)",
-    .doc = "Tensile strength of a bar cut from the place, by the tables [[local]] of the card",
+    .doc = "Tensile strength of a test bar cut from the place, by the tables [[local]] of the card",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
@@ -368,7 +371,7 @@ inline constexpr Quantity k_elongation{
     .name = "elongation",
     .unit = "1",
     .label = "Elongation (by table)",
-    .doc = "Elongation at fracture of a bar cut from the place, by the tables [[local]] of the card",
+    .doc = "Elongation at fracture of a test bar cut from the place, by the tables [[local]] of the card",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
@@ -382,7 +385,7 @@ inline constexpr Quantity k_hardness{
     .name = "hardness",
     .unit = "1",
     .label = "Brinell hardness (by table)",
-    .doc = "Brinell's number of the place, by the tables [[local]] of the card",
+    .doc = "Brinell hardness of the place, by the tables [[local]] of the card",
     .group = quantities::Group::criteria,
     .needs = {.heat = true, .melting = true},
     .no_value = -1,
@@ -395,7 +398,7 @@ inline constexpr Quantity k_hardness{
 inline constexpr Quantity k_grain_size{.name = "grain_size",
                                        .unit = "m",
                                        .label = "Grain size (by table)",
-                                       .doc = "Size of grains, by the tables [[local]] of the card",
+                                       .doc = "Grain size, by the tables [[local]] of the card",
                                        .group = quantities::Group::criteria,
                                        .needs = {.heat = true, .melting = true},
                                        .no_value = -1,

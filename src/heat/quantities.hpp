@@ -23,7 +23,7 @@ inline constexpr Quantity k_temperature{.name = "temperature",
 inline constexpr Quantity k_heat_flux{.name = "heat_flux",
                                       .unit = "W/m2",
                                       .label = "Heat flux",
-                                      .doc = "Flux of heat by conduction, its mean over the element",
+                                      .doc = "Heat flux by conduction, mean over the element",
                                       .group = quantities::Group::heat,
                                       .rank = quantities::Rank::vector,
                                       .place = quantities::Place::element,
@@ -40,16 +40,17 @@ inline constexpr Quantity k_conduction_dissipation{.name = "conduction_dissipati
                                                    .needs = {.heat = true},
                                                    .written = quantities::Written::on_request};
 
-inline constexpr Quantity k_solid_fraction{.name = "solid_fraction",
-                                           .unit = "1",
-                                           .label = "Solid fraction",
-                                           .doc = "Share of the metal that is solid; one where nothing melts",
-                                           .group = quantities::Group::heat,
-                                           .needs = {.heat = true, .melting = true},
-                                           .worst = quantities::Extreme::least,
-                                           .colours = quantities::Colours::share,
-                                           .compared = true,
-                                           .pictured = true};
+inline constexpr Quantity k_solid_fraction{
+    .name = "solid_fraction",
+    .unit = "1",
+    .label = "Solid fraction",
+    .doc = "Solid fraction of the metal; 1 in materials that do not melt",
+    .group = quantities::Group::heat,
+    .needs = {.heat = true, .melting = true},
+    .worst = quantities::Extreme::least,
+    .colours = quantities::Colours::share,
+    .compared = true,
+    .pictured = true};
 
 /// In the order of the reference page.
 inline constexpr std::array k_all = {&k_temperature, &k_heat_flux, &k_conduction_dissipation,

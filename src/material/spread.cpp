@@ -8,7 +8,7 @@ namespace solidus::material {
 namespace {
 
 Section<Spread> declared_keys() {
-  Section<Spread> s("spread", "A spread: relative, factor or shift, and where it comes from.");
+  Section<Spread> s("spread", "A spread: relative, factor or shift, and its source.");
   s.key("relative", &Spread::relative)
       .range(0, 0.9)
       .doc("Half width of the range that holds 95 % of the values, as a share of the value: 0.05 is 5 %.");
@@ -23,10 +23,10 @@ Section<Spread> declared_keys() {
       .doc("Half width of the range that holds 95 % of the temperatures.");
   s.key("source", &Spread::source)
       .initially("")
-      .doc("Where the range is printed, or what it is guessed from.");
+      .doc("Where the range is published, or what it is estimated from.");
   s.key("estimate", &Spread::estimate)
       .initially(false)
-      .doc("It is not printed with the value, but typical of such data.");
+      .doc("True: the range is not published with the value, but typical of such data.");
   s.place(&Spread::where);
   return s;
 }

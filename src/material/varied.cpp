@@ -179,8 +179,8 @@ Section<MaterialSpreads> material_spread_keys() {
   Section<MaterialSpreads> s(
       "spread",
       "How far the true values may lie from those of the card: half widths that hold 95 % (two standard "
-      "deviations), of whole tables by one factor. `solidus uncertain` carries them to the answers; without "
-      "one it takes a usual one and says so.");
+      "deviations), of whole tables by one factor. `solidus uncertain` computes the spreads of the answers "
+      "from them; where one is missing it uses a typical one and reports it.");
   for (const VariedProperty& row : varied_properties())
     s.section(row.key, row.spread, spread_keys()).doc(row.doc);
   return s;

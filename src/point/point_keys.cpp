@@ -65,14 +65,16 @@ void free_component_keys(Section<SegmentSpec>& s) {
       .choices({"xx", "yy", "zz", "xy", "yz", "xz"})
       .initially(Value::list())
       .when("kind", kind)
-      .doc("Components that keep their strain; what is not named anywhere keeps its stress.");
+      .doc(
+          "Components that keep their strain; components that no key of the segment names keep their "
+          "stress.");
 }
 
 Section<SegmentSpec> segment_keys() {
   // The keys of a [[segment]]: what is loaded, to which target or with which rate, at which temperature, and
   // in how many steps.
   Section<SegmentSpec> s("segment",
-                         "A part of the loading, straight in time from what is there to what is asked for. "
+                         "A part of the loading, linear in time from the present values to those given. "
                          "Segments follow each other in the order of the file.");
   s.choice(
        "kind", &SegmentSpec::kind,
@@ -84,15 +86,15 @@ Section<SegmentSpec> segment_keys() {
          "xy is loaded (half of the angle gamma), the other stresses go to zero"},
         {"constrained", SegmentKind::constrained, "every strain is held"},
         {"components", SegmentKind::components, "strains, stresses and their rates component by component"},
-        {"repeat", SegmentKind::repeat, "the segments before it once more, for cycles"}})
+        {"repeat", SegmentKind::repeat, "repeats the segments before it, for cycles"}})
       .initially("uniaxial")
-      .doc("What is loaded, and what is free.");
+      .doc("Which components are loaded, and which are free.");
   loaded_keys(s);
   free_component_keys(s);
   s.quantity("temperature", &SegmentSpec::temperature, "K")
       .positive()
       .when("kind", k_ramps)
-      .doc("At the end; left out, with its rate too: as it is.");
+      .doc("At the end; without it and its rate the temperature does not change.");
   s.quantity("temperature_rate", &SegmentSpec::temperature_rate, "K/s")
       .difference()
       .when("kind", k_ramps)
@@ -116,16 +118,16 @@ Section<SegmentSpec> segment_keys() {
       .range(1, 1000)
       .when("kind", {"repeat"})
       .doc("How many of the segments before this one are repeated.");
-  s.key("times", &SegmentSpec::times).range(1, 100000).when("kind", {"repeat"}).doc("How many times more.");
+  s.key("times", &SegmentSpec::times).range(1, 100000).when("kind", {"repeat"}).doc("How many more times.");
   s.place(&SegmentSpec::where);
   return s;
 }
 
 Section<CurveSpec> curve_keys() {
   Section<CurveSpec> s("curve",
-                       "The loading with something changed, for several curves in one picture. Without any, "
-                       "there is one curve named 'history'.");
-  s.key("name", &CurveSpec::name).doc("Of its table, NAME.csv: letters, digits and . _ + -");
+                       "The loading with some values changed, for several curves in one picture. Without "
+                       "this section there is one curve named 'history'.");
+  s.key("name", &CurveSpec::name).doc("Name of its table, NAME.csv: letters, digits and . _ + -");
   s.key("label", &CurveSpec::label).initially("").doc("In the pictures; left out, the name.");
   s.key("material", &CurveSpec::material).doc("Another material.");
   s.quantity("temperature", &CurveSpec::temperature, "K").positive().doc("Another temperature at the start.");
@@ -149,16 +151,18 @@ Section<PictureSpec> picture_keys() {
   s.key("logarithmic", &PictureSpec::logarithmic)
       .choices({"x", "y"})
       .initially(Value::list())
-      .doc("Axes to be divided so.");
+      .doc("Axes with a logarithmic scale.");
   s.place(&PictureSpec::where);
   return s;
 }
 
 Section<PointSpec> point_keys() {
-  Section<PointSpec> s("",
-                       "A point of a material taken through a history of strain, stress and temperature.");
+  // The keys at the top of the file come first, its sections last: this is the order of the reference.
+  Section<PointSpec> s(
+      "", "A history of strain, stress and temperature that a point of a material goes through.");
   s.key("title", &PointSpec::title).initially("").doc("What is tested, in one line.");
-  s.key("material", &PointSpec::material).doc("A name in the library, or a file (.toml) seen from this one.");
+  s.key("material", &PointSpec::material)
+      .doc("A name in the library, or a file (.toml) relative to this file.");
   s.quantity("temperature", &PointSpec::temperature, "K")
       .initially("20 degC")
       .positive()
@@ -171,12 +175,12 @@ Section<PointSpec> point_keys() {
             {"bdf2", PointIntegration::two_step,
              "second order: the two-step method of Gear; each segment begins with a step of backward Euler"}})
       .initially("backward_euler")
-      .doc("Of the flow in time.");
+      .doc("Time integration of the flow.");
   s.choice("thermal", &PointSpec::thermal,
-           {{"prescribed", Thermal::prescribed, "the segments say it"},
-            {"adiabatic", Thermal::adiabatic, "no heat comes or goes: it follows from the first law"}})
+           {{"prescribed", Thermal::prescribed, "the segments give it"},
+            {"adiabatic", Thermal::adiabatic, "no heat is exchanged: it follows from the first law"}})
       .initially("prescribed")
-      .doc("Where the temperature comes from.");
+      .doc("How the temperature is determined.");
   s.sections("segment", &PointSpec::segments, segment_keys());
   s.sections("curve", &PointSpec::curves, curve_keys());
   s.sections("picture", &PointSpec::pictures, picture_keys());

@@ -229,13 +229,14 @@ FindingFamily findings_alloys() {
       .find = &find,
       .rows = {
           {Topic::materials, "latent heat of another metal",
-           fmt::format("the latent heat times the density, for each kelvin of the liquidus (Richards' rule), "
-                       "below {} or above {} MJ/m³K (silicon {}): one of a litre or of a mole, cal for J",
-                       number(1e-6 * k_least_entropy), number(1e-6 * k_most_entropy),
-                       number(1e-6 * k_most_of_silicon))},
+           fmt::format(
+               "latent heat times density over the liquidus in kelvin (Richards' rule) below {} or above {} "
+               "MJ/m³K (silicon {}): perhaps a value per litre or mole, or in cal instead of J",
+               number(1e-6 * k_least_entropy), number(1e-6 * k_most_entropy),
+               number(1e-6 * k_most_of_silicon))},
           {Topic::materials, "specific heat or density of another metal",
-           fmt::format("their product at 20 °C (Dulong and Petit's rule), of what freezes, below {} or above "
-                       "{} MJ/m³K",
+           fmt::format("their product at 20 °C (Dulong and Petit's rule), in materials that freeze, below {} "
+                       "or above {} MJ/m³K",
                        number(1e-6 * k_least_capacity), number(1e-6 * k_most_capacity))},
           {Topic::materials, "conductivity of a light metal",
            fmt::format("below {} W/m/K at the solidus, lighter than {} kg/m³", number(k_least_of_light),
@@ -252,8 +253,9 @@ FindingFamily findings_alloys() {
           {Topic::materials, "a stiffness that does not fall",
            fmt::format("a Young's modulus at the solidus of more than {} of that at 20 °C",
                        percent(k_stiff))},
-          {Topic::materials, "a rate that adds nothing, or all",
-           fmt::format("at the solidus less than {} or more than {} times the flow stress there, at {} 1/s",
+          {Topic::materials, "a rate dependence that adds nothing, or everything",
+           fmt::format("at the solidus an overstress of less than {} or more than {} times the flow stress, "
+                       "at {} 1/s",
                        number(k_least_creep), number(k_most_creep), number(k_rate))},
           {Topic::materials, "data of criteria",
            fmt::format("secondary arms below {} µm or above {} mm apart after a minute of freezing; a "
@@ -261,8 +263,8 @@ FindingFamily findings_alloys() {
                        number(1e6 * k_finest), number(1e3 * k_coarsest), number(1e3 * k_thinnest),
                        number(1e3 * k_thickest), number(k_first_coherent))},
           {Topic::materials, "viscosity of a melt",
-           fmt::format("a `twice_shear_viscosity` that gives it in a first step a modulus above 2G at the "
-                       "solidus, where the material names no source for it, or below {} of the bulk modulus",
+           fmt::format("a `twice_shear_viscosity` without a source whose modulus in the first step is above "
+                       "2G at the solidus, or below {} of the bulk modulus",
                        number(k_no_shear))}}};
 }
 

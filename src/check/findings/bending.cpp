@@ -99,8 +99,8 @@ FindingFamily findings_bending() {
       .rows = {{Topic::mesh, "a thin body that bends with one element",
                 fmt::format(
                     "more than {} of a body that deforms, {} times as long as thick, are elements of first "
-                    "order that reach from skin to skin; at the end of a run a line says of bodies of first "
-                    "order whose stress jumps by more than half of its size from element to element",
+                    "order that reach from one surface to the other; at the end of a run a line names bodies "
+                    "of first order whose stress jumps by more than half of its size from element to element",
                     percent(k_most), number(k_slender))}}};
 }
 

@@ -403,8 +403,8 @@ FindingFamily findings_conditions() {
           {Topic::conditions, "a held temperature near zero", fmt::format("below {} K", number(k_coldest))},
           {Topic::conditions, "rooms in K", "surroundings or bodies of 293 or 298 °C"},
           {Topic::conditions, fmt::format("bodies that start below {} K", number(k_coldest_body))},
-          {Topic::conditions, "a film below what radiation takes",
-           fmt::format("{} to {} W/m²K of one number on a body that is not poured, where nothing radiates",
+          {Topic::conditions, "a film below the heat loss by radiation",
+           fmt::format("a constant of {} to {} W/m²K on a body that is not poured, where nothing radiates",
                        number(k_least_film), number(k_radiation))},
           {Topic::conditions, "film, flux, source",
            fmt::format(
@@ -421,8 +421,8 @@ FindingFamily findings_conditions() {
            "of a film's coefficient or an emissivity"},
           {Topic::conditions, "tolerances of the iterations",
            fmt::format("`heat.tolerance` or `mechanics.tolerance` above {}", number(k_loose))},
-          {Topic::conditions, "outputs behind the end of the run; tables of time that begin there"},
-          {Topic::conditions, "tables of time of which the run sees next to nothing",
+          {Topic::conditions, "outputs after the end of the run; tables of time that begin after it"},
+          {Topic::conditions, "tables of time of which the run uses next to nothing",
            fmt::format(
                "the second point lies beyond {} times the end, or the last one beyond {} times; the last of "
                "three or more within {} of the run (thermal conditions that are on at all times)",
@@ -435,16 +435,16 @@ FindingFamily findings_conditions() {
                        number(k_most_gravity))},
           {Topic::pour, "one step is the whole run", "of fixed steps, without stages"},
           {Topic::pour, "a periodic state",
-           fmt::format("to less than {} mK or more than {} K", number(1e3 * k_least_period),
+           fmt::format("its tolerance is less than {} mK or more than {} K", number(1e3 * k_least_period),
                        number(k_most_period))},
           {Topic::mesh, "size of the mesh",
            fmt::format("above {} m or below {} mm", number(k_largest_mesh), number(1e3 * k_smallest_mesh))},
-          {Topic::effort, "the tolerance of steps",
-           fmt::format(
-               "below {} mK, below {} nm or above {} mm of motion, above {} of what the bodies start apart; "
-               "more than {} of the casting may freeze in a step, or of a skin let go of its wall",
-               number(1e3 * k_least_error), number(1e9 * k_least_motion), number(1e3 * k_most_motion),
-               percent(k_most_error), percent(k_most_of_step))}}};
+          {Topic::effort, "the tolerances of steps",
+           fmt::format("of temperature below {} mK; of displacement below {} nm or above {} mm; of "
+                       "temperature above {} of the differences of initial temperatures; more than {} of the "
+                       "casting may freeze in a step, or of a surface be released from its wall",
+                       number(1e3 * k_least_error), number(1e9 * k_least_motion), number(1e3 * k_most_motion),
+                       percent(k_most_error), percent(k_most_of_step))}}};
 }
 
 }  // namespace solidus::check

@@ -51,8 +51,8 @@ FindingFamily findings_coupling() {
           .place = 300,
           .find = &find,
           .rows = {{Topic::mechanics, "temperatures lag",
-                    fmt::format("a scheme that conducts before deformation takes up its share of the heat, "
-                                "by {} and more of what changes evenly over the run "
+                    fmt::format("in a scheme that conducts heat before the deformation takes up its part of "
+                                "it: by {} or more of temperatures that change evenly over the run "
                                 "([theory](../theory/coupling_stability.md#9-what-the-program-computes))",
                                 percent(k_late))}}};
 }

@@ -49,12 +49,13 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_elements() {
-  return {.name = "elements",
-          .place = 140,
-          .find = &find,
-          .rows = {{Topic::mesh, "elements without pores",
-                    "a casting that deforms and shrinks as it freezes has elements that neither open pores "
-                    "nor feed; not where its material gives the viscosity of the melt"}}};
+  return {
+      .name = "elements",
+      .place = 140,
+      .find = &find,
+      .rows = {{Topic::mesh, "elements that cannot form pores",
+                "a casting that deforms and shrinks as it freezes has elements in which neither pores nor "
+                "feeding are modelled; not reported where its material gives the viscosity of the melt"}}};
 }
 
 }  // namespace solidus::check

@@ -61,8 +61,8 @@ FindingFamily findings_enclosures() {
   return {.name = "enclosures",
           .place = 115,
           .find = &find,
-          .rows = {{Topic::conditions, "radiation to one ambient temperature from a skin that sees itself",
-                    fmt::format("{} or more of its view is its own, where it has no more than {} faces",
+          .rows = {{Topic::conditions, "radiation to one ambient temperature from a surface that sees itself",
+                    fmt::format("{} or more of its view factors are to itself; computed up to {} faces",
                                 percent(k_own_view), number(k_most_faces))}}};
 }
 

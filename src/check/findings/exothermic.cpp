@@ -82,16 +82,15 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_exothermic() {
-  return {
-      .name = "what burns",
-      .place = 280,
-      .find = &find,
-      .rows = {
-          {Topic::pour, "what burns",
-           fmt::format("in a body that is poured; an ignition above all starts (above {} K it is switched "
-                       "off), or below that of its body; below {} or above {} J/m³; below {} s or above {} s",
-                       number(k_switched_off), number(k_least_heat), number(k_most_heat), number(k_shortest),
-                       number(k_longest))}}};
+  return {.name = "what burns",
+          .place = 280,
+          .find = &find,
+          .rows = {{Topic::pour, "what burns",
+                    fmt::format("a poured body that burns; an ignition temperature above all initial "
+                                "temperatures (above {} K counts as switched off), or below that of its own "
+                                "body; a heat below {} or above {} J/m³; a duration below {} s or above {} s",
+                                number(k_switched_off), number(k_least_heat), number(k_most_heat),
+                                number(k_shortest), number(k_longest))}}};
 }
 
 }  // namespace solidus::check

@@ -110,7 +110,8 @@ FindingFamily findings_feeders() {
            fmt::format("in the lowest {} of its casting, by the direction of gravity; a riser that is a body "
                        "of its own: of all that is poured",
                        percent(k_low))},
-          {Topic::pour, "a feeder is all that is poured", fmt::format("{} of its nodes", percent(k_all))}}};
+          {Topic::pour, "a feeder is nearly all poured metal",
+           fmt::format("it holds {} of the nodes", percent(k_all))}}};
 }
 
 }  // namespace solidus::check

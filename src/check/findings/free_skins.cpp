@@ -126,15 +126,16 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_free_skins() {
-  return {.name = "free skins",
-          .place = 130,
-          .find = &find,
-          .rows = {{Topic::mechanics, "a free skin of the casting is held in all directions",
-                    fmt::format("more than {} of its skin, with no contact", percent(k_least_share_of_skin))},
-                   {Topic::mechanics, "a melt that is open below",
-                    fmt::format("{} of its skin that faces along gravity has neither contact, support, load "
-                                "nor held temperature, and all that faces up has one",
-                                percent(k_open))}}};
+  return {
+      .name = "free skins",
+      .place = 130,
+      .find = &find,
+      .rows = {{Topic::mechanics, "a free surface of the casting is held in all directions",
+                fmt::format("more than {} of its surface, without contact", percent(k_least_share_of_skin))},
+               {Topic::mechanics, "a melt that is open below",
+                fmt::format("{} of its surface that faces down has neither contact, support, load nor "
+                            "held temperature, and all of that which faces up has one",
+                            percent(k_open))}}};
 }
 
 }  // namespace solidus::check

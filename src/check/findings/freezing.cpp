@@ -361,41 +361,42 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_freezing() {
-  return {
-      .name = "freezing",
-      .place = 90,
-      .find = &find,
-      .rows = {
-          {Topic::materials, "a second casting starts partly solid",
-           "between solidus and liquidus, where another body is hotter"},
-          {Topic::materials, "melt next to melt",
-           "a contact joins two bodies that are poured; two alloys that are poured share nodes"},
-          {Topic::materials, "a body melts",
-           "nothing is poured, and all bodies together, with no heat from or to elsewhere, come above its "
-           "solidus"},
-          {Topic::materials, "a chill counts as a casting",
-           "its material can freeze, it starts solid next to a body that is poured"},
-          {Topic::pour, "nothing cools it; it does not freeze", "by the estimate"},
-          {Topic::pour,
-           "its skin is held above the solidus; its surroundings are hotter than that, in whatever stage",
-           "conditions of one number"},
-          {Topic::pour, "a flux heats it", "a flux is positive into the body"},
-          {Topic::pour, "a run until all is solid, in which nothing is poured", "`until = \"solid\"`",
-           "error"},
-          {Topic::pour,
-           "the run ends before, or the casting leaves; a casting that comes in a later stage too",
-           fmt::format("the run at less than {} of the estimate, the casting at less than {} of it",
-                       percent(k_early), percent(k_liquid))},
-          {Topic::pour, "steps too long, too short",
-           fmt::format("fixed ones, or the first of adaptive ones, above 1/{} of the estimate, `min_step` "
-                       "above 1/{}; `max_step` above {} of the run; fixed ones, or `max_step`, of which the "
-                       "estimate takes more than {}",
-                       number(k_fine), number(k_least_steps), percent(k_of_run), number(k_many))},
-          {Topic::pour, fmt::format("it takes more than {} days", number(k_most_days))},
-          {Topic::pour, "a steady analysis of a body that is poured"},
-          {Topic::pour, "a cold riser", "a body with that role starts below its solidus"},
-          {Topic::pour, "a cycle without shots",
-           "it comes round more than once, and no body that is poured leaves in it"}}};
+  return {.name = "freezing",
+          .place = 90,
+          .find = &find,
+          .rows = {
+              {Topic::materials, "a second casting starts partly solid",
+               "between solidus and liquidus, where another body is hotter"},
+              {Topic::materials, "melt next to melt",
+               "a contact joins two bodies that are poured; two alloys that are poured share nodes"},
+              {Topic::materials, "a body melts",
+               "nothing is poured, and the common temperature that all bodies would reach, insulated from "
+               "the surroundings, is above the solidus of one"},
+              {Topic::materials, "a chill counts as a casting",
+               "its material can freeze, and it starts solid next to a body that is poured"},
+              {Topic::pour, "nothing cools a casting; it does not freeze", "by the estimate"},
+              {Topic::pour,
+               "its surface is held above the solidus; its surroundings are hotter than that, in any stage",
+               "conditions that are constants"},
+              {Topic::pour, "a flux heats it", "a flux is positive into the body"},
+              {Topic::pour, "a run until all is solid, in which nothing is poured", "`until = \"solid\"`",
+               "error"},
+              {Topic::pour,
+               "the run ends before a casting is solid, or the casting is removed before; castings poured in "
+               "a later stage too",
+               fmt::format("the run lasts less than {} of the estimated time to freeze, the casting stays "
+                           "for less than {} of it",
+                           percent(k_early), percent(k_liquid))},
+              {Topic::pour, "steps too long, too short",
+               fmt::format("fixed ones, or the first of adaptive ones, above 1/{} of the estimated time to "
+                           "freeze, `min_step` above 1/{} of it; `max_step` above {} of the run; more than "
+                           "{} fixed steps, or steps of `max_step`, in the estimated time",
+                           number(k_fine), number(k_least_steps), percent(k_of_run), number(k_many))},
+              {Topic::pour,
+               fmt::format("the estimated time to freeze is more than {} days", number(k_most_days))},
+              {Topic::pour, "a steady analysis of a body that is poured"},
+              {Topic::pour, "a cold riser", "a body with that role starts below its solidus"},
+              {Topic::pour, "a cycle without shots", "it is repeated, and no poured body is removed in it"}}};
 }
 
 }  // namespace solidus::check

@@ -222,25 +222,26 @@ FindingFamily findings_geometry() {
       .find = &find,
       .rows = {
           {Topic::contacts, "bodies are glued together",
-           fmt::format(
-               "surfaces in contact share some nodes; bodies that start more than {} K apart share nodes",
-               number(k_same_temperature))},
+           fmt::format("surfaces in contact share some nodes; bodies whose initial temperatures differ by "
+                       "more than {} K share nodes",
+                       number(k_same_temperature))},
           {Topic::contacts, "bodies overlap",
-           fmt::format("contact begins with more than {} of a face of overlap, facets and what `touching` "
-                       "closes taken out",
+           fmt::format("the surfaces overlap at the start by more than {} of a face's size, without the "
+                       "effect of facets and what `touching` closes",
                        number(k_overlap))},
           {Topic::contacts, "surfaces are far apart",
-           fmt::format(
-               "the least gap is above {} mm and {} of the body, facets and what `touching` closes taken out",
-               number(1e3 * k_apart), percent(k_apart_of_body))},
+           fmt::format("the smallest gap is above {} mm and {} of the body, without the effect of facets and "
+                       "what `touching` closes",
+                       number(1e3 * k_apart), percent(k_apart_of_body))},
           {Topic::contacts, "both surfaces belong to one body"},
           {Topic::mesh, "elements too large for the wall",
-           fmt::format("{} of the casting are elements that reach from cooled skin to cooled skin, or their "
-                       "mean edge is {} times the depth, or it is one element",
+           fmt::format("{} of the casting are elements that reach from one cooled surface to the other, or "
+                       "whose mean edge is {} times the depth of the wall, or the casting is one element",
                        percent(k_spanned), number(k_coarse))},
           {Topic::mesh, "elements too large for the mould",
-           fmt::format("the shortest is {} times what heat goes deep until the casting is solid",
-                       number(k_coarse_mould))},
+           fmt::format(
+               "the shortest is {} times the depth to which heat penetrates until the casting is solid",
+               number(k_coarse_mould))},
           {Topic::mesh, "a small casting", fmt::format("below {} mm", number(1e3 * k_small))},
           {Topic::mesh, "flat elements",
            fmt::format("an edge {} times as long as another of the element, in a casting {} times, in a body "

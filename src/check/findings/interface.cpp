@@ -232,12 +232,12 @@ FindingFamily findings_interface() {
       .rows = {{Topic::contacts, "two contacts join the same surfaces", "in either order, at the same time",
                 "error"},
                {Topic::contacts, "no heat passes between two bodies",
-                fmt::format("their starts differ by more than {} K, and neither a contact with "
-                            "`[contact.heat]` nor shared nodes join them, also not over others",
+                fmt::format("their initial temperatures differ by more than {} K, and neither a contact with "
+                            "`[contact.heat]` nor shared nodes join them, directly or through other bodies",
                             number(k_same_temperature))},
                {Topic::contacts, "one emissivity alone", "nothing radiates across the contact"},
                {Topic::contacts, "a film lies on a surface in contact; two films on one surface",
-                "films that are one number; those of place or time may follow each other"},
+                "both films are constants; films that depend on place or time may complement each other"},
                {Topic::contacts, "conductance of a contact",
                 fmt::format("below {} or above {} W/m²K; above {} it is an error",
                             number(PowerContact::k_least_usual), number(PowerContact::k_most_usual),
@@ -262,9 +262,9 @@ FindingFamily findings_interface() {
                 fmt::format("ends at a gap below {} µm; at a pressure below {} kPa or above {} GPa",
                             number(1e6 * TableGap::k_narrowest), number(1e-3 * TableContact::k_least_usual),
                             number(1e-9 * TableContact::k_most_usual))},
-               {Topic::contacts, "friction that hardens with temperature",
-                "on an interface without heat capacity, in a scheme that holds entropies: there the "
-                "temperature is held"}}};
+               {Topic::contacts, "friction with hardening that depends on temperature",
+                "on an interface without heat capacity, in an isentropic scheme: the scheme then holds the "
+                "temperature of the interface instead of its entropy"}}};
 }
 
 }  // namespace solidus::check

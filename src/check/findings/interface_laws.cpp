@@ -84,8 +84,8 @@ FindingFamily findings_interface_laws() {
           .place = 20,
           .find = &find,
           .rows = {{Topic::contacts, "an interface law of other bodies",
-                    fmt::format("a card of the library that its name has chosen, is not for these materials "
-                                "and roles, and conducts {} times more or less than the one that is",
+                    fmt::format("`law` names a card that is not for these materials and roles, and whose "
+                                "conductance differs by a factor of {} from that of the one that is",
                                 number(k_alike))}}};
 }
 

@@ -183,21 +183,22 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_leaving() {
-  return {.name = "leaving",
-          .place = 110,
-          .find = &find,
-          .rows = {{Topic::pour, "a mould, core or chill leaves melt",
-                    fmt::format("a stage frees a casting of it at less than {} of the estimate",
-                                percent(k_solid_at_last))},
-                   {Topic::pour, "a mould comes too late",
-                    "a body that has a contact with a casting comes, or comes back, in a stage before which "
-                    "the casting stood without it"},
-                   {Topic::pour, "a stage of pouring in which nothing is poured",
-                    "its name begins with `pour` or `fill`, and no casting comes"},
-                   {Topic::pour, "a die that is new in every round",
-                    "a body with the role of a die leaves and comes back in a cycle"},
-                   {Topic::pour, "a short search for a periodic state",
-                    fmt::format("in less than {} rounds", k_least_rounds)}}};
+  return {
+      .name = "leaving",
+      .place = 110,
+      .find = &find,
+      .rows = {
+          {Topic::pour, "a mould, core or chill is removed from melt",
+           fmt::format("a stage removes it from a casting at less than {} of the estimated time to freeze",
+                       percent(k_solid_at_last))},
+          {Topic::pour, "a mould comes too late",
+           "a body in contact with a casting appears, or appears again, in a stage later than the casting"},
+          {Topic::pour, "a stage of pouring in which nothing is poured",
+           "its name begins with `pour` or `fill`, and no casting appears in it"},
+          {Topic::pour, "a die that is new in every round",
+           "a body with the role of a die is removed and appears again in a cycle"},
+          {Topic::pour, "a short search for a periodic state",
+           fmt::format("`repeat` allows less than {} rounds", k_least_rounds)}}};
 }
 
 }  // namespace solidus::check

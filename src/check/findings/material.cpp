@@ -330,18 +330,19 @@ FindingFamily findings_material() {
                             number(k_most_conductivity), number(k_least_heat), number(k_most_heat),
                             number(1e-3 * k_least_latent), number(1e-3 * k_most_latent))},
                {Topic::materials, "elastic modulus, expansion",
-                fmt::format("outside of {} to {} Pa, metals below {} GPa (what freezes, or is denser than {} "
-                            "kg/m³ and conducts more than {} W/m/K); a modulus that rises by {} with "
-                            "temperature; beyond {} 1/K (what freezes {}: that of the volume), below {} 1/K",
-                            number(k_least_modulus), number(k_most_modulus),
-                            number(1e-9 * k_least_modulus_of_metals), number(k_dense), number(k_conducts),
-                            percent(k_stiffening - 1), number(k_most_expansion),
-                            number(k_most_expansion_of_metals), number(k_least_expansion))},
+                fmt::format(
+                    "outside of {} to {} Pa, metals below {} GPa (metals: materials that freeze, or are "
+                    "denser than {} kg/m³ and conduct more than {} W/m/K); a modulus that rises by {} with "
+                    "temperature; an expansion beyond {} 1/K ({} in materials that freeze: probably that of "
+                    "the volume), below {} 1/K",
+                    number(k_least_modulus), number(k_most_modulus), number(1e-9 * k_least_modulus_of_metals),
+                    number(k_dense), number(k_conducts), percent(k_stiffening - 1), number(k_most_expansion),
+                    number(k_most_expansion_of_metals), number(k_least_expansion))},
                {Topic::materials, "change of volume, strength, freezing range",
                 fmt::format("above {}; a flow stress below {} MPa at its highest; above {} K",
                             percent(k_most_change), number(1e-6 * k_least_strength), number(k_widest_range))},
                {Topic::materials, "sign of the change of volume",
-                fmt::format("metal gains more than {} as it freezes", percent(k_most_gain))},
+                fmt::format("metal expands by more than {} as it freezes", percent(k_most_gain))},
                {Topic::materials, "ratios of properties",
                 fmt::format(
                     "a metal with a Poisson's ratio below {}; a `hardening_modulus` above {} of Young's "
@@ -349,16 +350,16 @@ FindingFamily findings_material() {
                     number(k_least_poisson), percent(k_most_hardening), number(k_least_rate_stress),
                     number(k_most_rate_stress), number(k_rate))},
                {Topic::materials, "a mould of an alloy",
-                fmt::format(
-                    "the role is neither casting nor riser, and a phase change takes up more than {} kJ/kg",
-                    number(1e-3 * k_much_latent))},
+                fmt::format("the role is neither casting nor riser, and a phase change has more than {} "
+                            "kJ/kg of latent heat",
+                            number(1e-3 * k_much_latent))},
                {Topic::materials, "latent heat counted twice, or not at all",
                 fmt::format("a specific heat that rises to {} times its values around where the metal "
                             "freezes; more than {} kJ/kg in a phase change that is no `solidification`",
                             number(k_hump), number(1e-3 * k_much_latent))},
                {Topic::materials, "a table in K was read as °C",
-                "it begins at 273, 293 or 298 °C, or near 300 °C with a point at the kelvins of the solidus "
-                "or liquidus, and the case is colder"},
+                "it begins at 273, 293 or 298 °C, or near 300 °C with a point whose number is the solidus or "
+                "liquidus in kelvin, and the case is colder"},
                {Topic::materials, "a table in °C was read as K",
                 fmt::format("it begins below {} K and ends below {} K", number(k_cold_table),
                             number(k_cold_table_end))}}};

@@ -253,17 +253,18 @@ FindingFamily findings_mechanics() {
       .find = &find,
       .rows = {
           {Topic::mechanics, "a casting that cannot shrink",
-           fmt::format("{} of its nodes are held in all directions, or the skin in contact is",
+           fmt::format("{} of its nodes are held in all directions, or its surface in contact is",
                        percent(k_all_held))},
           {Topic::mechanics, "springs of contacts",
            fmt::format("a penalty below {} or above {} N/m³", number(k_softest_spring),
                        number(k_stiffest_spring))},
           {Topic::mechanics, "supports and loads",
-           fmt::format("moved farther than the largest body is long; more than {} GPa, or less than {} Pa",
+           fmt::format("a displacement larger than the largest body is long; a load of more than {} GPa, or "
+                       "less than {} Pa",
                        number(1e-9 * k_most_pressure), number(k_nothing))},
           {Topic::mechanics, "pressure on a melt that nothing holds",
            fmt::format(
-               "above {} bar at the start, where more than {} of its skin has neither contact nor support",
+               "above {} bar at the start, where more than {} of its surface has neither contact nor support",
                number(1e-5 * k_head), percent(k_free))},
           {Topic::mechanics, "coefficient of friction",
            fmt::format("above {}, or between 0 and {}", number(k_most_friction), number(k_least_friction))},

@@ -184,22 +184,24 @@ FindingFamily findings_moulds() {
       .find = &find,
       .rows = {
           {Topic::pour, "a body of coating",
-           fmt::format("its material has `wash` or `coating` in its name, and 2 V/A is {} mm or more",
-                       number(1e3 * k_thickest))},
+           fmt::format(
+               "its material has `wash` or `coating` in its name, and its thickness, 2 V/A, is {} mm or more",
+               number(1e3 * k_thickest))},
           {Topic::pour, "walls of metres",
            fmt::format(
-               "a body reaches {} times the largest side of what is poured beyond it, and {} m or more",
+               "a body extends beyond the poured metal by {} times its largest side and by {} m or more",
                number(k_times), number(k_least))},
           {Topic::pour, "thin sand that is held cold",
-           fmt::format("a body that conducts less than {} W/m/K is held below {:.0f} °C at all times, nearer "
-                       "to the melt than 2 √(αt) in the estimated time to freeze",
-                       number(k_sand), k_coldest - k_zero_celsius)},
+           fmt::format(
+               "a body that conducts less than {} W/m/K is held below {:.0f} °C at all times, nearer to the "
+               "melt than 2 √(αt), α its thermal diffusivity and t the estimated time to freeze",
+               number(k_sand), k_coldest - k_zero_celsius)},
           {Topic::pour, "thin sand",
            "a body with the role of a mould and `sand` in its material's name, whose volume over the cooled "
-           "skin is thinner than heat goes deep until the casting is solid"},
+           "surface is less than the depth to which heat penetrates until the casting is solid"},
           {Topic::pour, "sand that never yields",
-           "a body that deforms, with `sand` in its material's name, `young_modulus` and no law by which it "
-           "yields"}}};
+           "a body that deforms, with `sand` in its material's name, is elastic: its material has "
+           "`young_modulus` and neither `[granular]` nor `[plasticity]`"}}};
 }
 
 }  // namespace solidus::check

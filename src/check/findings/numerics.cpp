@@ -160,8 +160,8 @@ FindingFamily findings_numerics() {
       .place = 230,
       .find = &find,
       .rows = {{Topic::contacts, "an interface begins with gaps",
-                "bodies that an `[[interface]]` without `touching` has found are apart by more than "
-                "facets of curved faces explain"},
+                "bodies that an `[[interface]]` without `touching` has found are farther apart than facets "
+                "of curved faces explain"},
                {Topic::contacts, "the slave is coarse",
                 fmt::format("where melt is the master, its faces are more than {} (nodes) or {} times "
                             "(Gauss points) as large as those of the melt",

@@ -109,18 +109,17 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_open_risers() {
-  return {
-      .name = "open risers",
-      .place = 270,
-      .find = &find,
-      .rows = {{Topic::pour, "an open riser that nothing cools",
-                fmt::format("more than {} of its skin face up, against gravity, with neither a thermal "
-                            "condition nor a contact",
-                            percent(k_least_share_of_skin))},
-               {Topic::pour, "a riser on its side",
-                fmt::format(
-                    "where it deforms: none of its free skin faces up, and more than {} of it face sideways",
-                    percent(k_least_share_of_skin))}}};
+  return {.name = "open risers",
+          .place = 270,
+          .find = &find,
+          .rows = {{Topic::pour, "an open riser that nothing cools",
+                    fmt::format("more than {} of its surface faces up, against gravity, with neither a "
+                                "thermal condition nor a contact",
+                                percent(k_least_share_of_skin))},
+                   {Topic::pour, "a riser on its side",
+                    fmt::format("where it deforms: no part of its free surface faces up, and more than {} of "
+                                "it faces sideways",
+                                percent(k_least_share_of_skin))}}};
 }
 
 }  // namespace solidus::check

@@ -87,10 +87,10 @@ FindingFamily findings_partly_in_contact() {
   return {.name = "surfaces partly in contact",
           .place = 220,
           .find = &find,
-          .rows = {{Topic::conditions, "a condition on a surface of which a part lies in a contact",
-                    "films, fluxes, held temperatures, supports and loads of one number: a rule for a group "
-                    "that takes too much, such as all faces of a body, or a normal near that of a curved "
-                    "face in contact"}}};
+          .rows = {{Topic::conditions, "a condition on a surface that is partly in contact",
+                    "constant films, fluxes, held temperatures, supports and loads: perhaps the rule of the "
+                    "group selects too many faces, such as all faces of a body, or a normal near that of a "
+                    "curved face in contact"}}};
 }
 
 }  // namespace solidus::check

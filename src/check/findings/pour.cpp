@@ -150,15 +150,16 @@ FindingFamily findings_pour() {
                     fmt::format("the hottest body starts below its liquidus, or more than {} K above",
                                 number(k_most_superheat)),
                     fmt::format("it can freeze, and is {} K hotter than the coldest body", number(k_apart))},
-                   {Topic::pour, "a casting of what does not freeze",
-                    fmt::format("a body has the role of a casting or riser, or nothing in the case freezes "
-                                "and the hottest one is of sand above {0:.0f} °C or starts above {0:.0f} °C "
-                                "without a role next to what is a mould, core or chill by role or name",
+                   {Topic::pour, "a casting of a material that does not freeze",
+                    fmt::format("a body has the role of a casting or riser; or nothing in the case freezes, "
+                                "and the hottest body is of sand above {0:.0f} °C, or has no role and starts "
+                                "above {0:.0f} °C next to a mould, core or chill (by role or name)",
                                 k_hot - k_zero_celsius)},
                    {Topic::pour, "roles swapped",
                     "the hottest body is given another role than `casting` or `riser`, and a body that role"},
                    {Topic::materials, "materials swapped",
-                    "the hottest body cannot freeze, and a cold one would be liquid at its temperature"}}};
+                    "the hottest body cannot freeze, and the material of a cold one would be liquid at the "
+                    "temperature of the hottest"}}};
 }
 
 }  // namespace solidus::check

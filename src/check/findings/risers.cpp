@@ -311,20 +311,23 @@ FindingFamily findings_risers() {
       .find = &find,
       .rows = {
           {Topic::pour, "a riser that freezes first",
-           fmt::format("alone, without the heat that metal gives metal, it takes less than {} of the time of "
-                       "a casting with which it shares nodes",
+           fmt::format("by itself, without heat from the casting, it takes less than {} of the time of a "
+                       "casting with which it shares nodes",
                        percent(k_early))},
           {Topic::pour, "a riser that stands apart",
-           "it shares no node, and has no contact, with another body that is poured, where a casting is"},
+           "it neither shares a node nor has a contact with another poured body, although there is a "
+           "casting"},
           {Topic::pour, "risers larger than castings",
-           fmt::format("{} times as large as all else that is poured: groups are swapped", number(k_large))},
+           fmt::format("{} times as large as the rest of the poured metal: perhaps groups are swapped",
+                       number(k_large))},
           {Topic::pour, "a riser below its casting",
-           "its top is below the middle of every casting with which it shares nodes, as gravity acts; where "
-           "`criteria.feeders` does not name it"},
+           "its top is below the middle of every casting with which it shares nodes, in the direction of "
+           "gravity, and `criteria.feeders` does not name it"},
           {Topic::pour, "core and chill swapped",
-           fmt::format("the box of a core lies outside what is poured, and {} of that of a chill within it",
+           fmt::format("the bounding box of a core lies outside that of the poured metal, and {} of that of "
+                       "a chill within it",
                        percent(k_within))},
-          {Topic::pour, "a core or mould as hot as melt", "it starts above the liquidus of what is poured"},
+          {Topic::pour, "a core or mould as hot as melt", "it starts above the liquidus of the poured metal"},
           {Topic::pour, "sand as hot as a shell",
            fmt::format("a body whose material has `sand` in its name starts above {:.0f} °C, where something "
                        "is poured",
@@ -332,7 +335,7 @@ FindingFamily findings_risers() {
           {Topic::pour, "a mould, core or chill in K",
            "it starts at 373, 473 or 573 °C (or .15 more): 100, 200 or 300 °C in kelvins"},
           {Topic::pour, "melt that only conducts next to melt that deforms", "they share nodes"},
-          {Topic::mechanics, "a pressure of a die on melt in sand",
+          {Topic::mechanics, "a pressure of die casting on melt in sand",
            fmt::format(
                "above {} MPa, on a riser above {} MPa, where a body in contact conducts less than {} W/m/K",
                number(1e-6 * k_stands), number(1e-6 * k_on_riser), number(k_sand))}}};

@@ -213,34 +213,35 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_roles() {
-  return {.name = "roles",
-          .place = 240,
-          .find = &find,
-          .rows = {{Topic::pour, "a chill that takes up no heat",
-                    fmt::format("it starts above {:.0f} °C, or conducts less than {} W/m/K",
-                                k_hot_chill - k_zero_celsius, number(k_conducts))},
-                   {Topic::pour, "a mould of insulation",
-                    fmt::format("a body with the role of a mould, on metal, of √(kρc) below {} W√s/(m²K): "
-                                "plaster and loose sand have 570 and 600",
-                                number(k_insulates))},
-                   {Topic::pour, "a mould within its casting",
-                    "every mould or die lies in the casting's bounding box: groups or roles are swapped"},
-                   {Topic::pour, "a riser without weight, or cooled",
-                    fmt::format("gravity is zero where a riser deforms; a film above {} W/m²K on it",
-                                number(k_on_riser))},
-                   {Topic::pour, "criteria that follow nothing",
-                    fmt::format(
-                        "feeders with `follow = false`; a `feeding_limit` below {}, an `evaluation` above {}",
-                        number(k_least_feeding), number(k_most_evaluation))},
-                   {Topic::conditions, "a mould that is kept above the solidus",
-                    "surroundings or a temperature of one number, at all times"},
-                   {Topic::conditions, "water on sand",
-                    fmt::format("a film above {} W/m²K on what conducts less than {} W/m/K and is not poured",
-                                number(k_on_sand), number(k_sand))},
-                   {Topic::conditions, "a film whose factor is 0", "of one number"},
-                   {Topic::mechanics, "the pressure of the air as a load",
-                    fmt::format("{} to {} bar: pressures are counted from it", number(1e-5 * k_air),
-                                number(1e-5 * k_air_at_most))}}};
+  return {
+      .name = "roles",
+      .place = 240,
+      .find = &find,
+      .rows = {
+          {Topic::pour, "a chill that takes up no heat",
+           fmt::format("it starts above {:.0f} °C, or conducts less than {} W/m/K",
+                       k_hot_chill - k_zero_celsius, number(k_conducts))},
+          {Topic::pour, "a mould of insulation",
+           fmt::format("a body with the role of a mould, next to metal, has a heat diffusivity √(kρc) below "
+                       "{} W√s/(m²K): plaster and loose sand have 570 and 600",
+                       number(k_insulates))},
+          {Topic::pour, "a mould within its casting",
+           "every mould or die lies in the casting's bounding box: perhaps groups or roles are swapped"},
+          {Topic::pour, "a riser without weight, or cooled",
+           fmt::format("gravity is zero where a riser deforms; a film above {} W/m²K on it",
+                       number(k_on_riser))},
+          {Topic::pour, "criteria that evaluate nothing",
+           fmt::format("feeders with `follow = false`; a `feeding_limit` below {}, an `evaluation` above {}",
+                       number(k_least_feeding), number(k_most_evaluation))},
+          {Topic::conditions, "a mould that is kept above the solidus",
+           "surroundings or a temperature of one number, at all times"},
+          {Topic::conditions, "water on sand",
+           fmt::format("a film above {} W/m²K on a body that conducts less than {} W/m/K and is not poured",
+                       number(k_on_sand), number(k_sand))},
+          {Topic::conditions, "a film whose factor is 0", "of one number"},
+          {Topic::mechanics, "the pressure of the air as a load",
+           fmt::format("{} to {} bar: pressures are counted from it", number(1e-5 * k_air),
+                       number(1e-5 * k_air_at_most))}}};
 }
 
 }  // namespace solidus::check

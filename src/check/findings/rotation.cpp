@@ -168,12 +168,13 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_rotation() {
-  return {.name = "bodies that can turn",
-          .place = 180,
-          .find = &find,
-          .rows = {{Topic::mechanics, "nothing keeps a body from turning",
-                    "its supports hold a point or a line of it (nodes with names of their own; bodies in "
-                    "contact count as one)"}}};
+  return {
+      .name = "bodies that can turn",
+      .place = 180,
+      .find = &find,
+      .rows = {
+          {Topic::mechanics, "nothing keeps a body from turning",
+           "its supports hold only a point or a line of it (named nodes; bodies in contact count as one)"}}};
 }
 
 }  // namespace solidus::check

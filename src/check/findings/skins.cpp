@@ -175,10 +175,11 @@ FindingFamily findings_skins() {
       .place = 80,
       .find = &find,
       .rows = {
-          {Topic::contacts, "a casting lies on a body to which nothing joins it there",
-           fmt::format("on more than {} of the smaller skin, nearer than {} of a face, with neither contact, "
-                       "condition nor shared nodes: a forgotten side, a riser that was meshed apart",
-                       percent(k_least_share_of_skin), number(k_near))}}};
+          {Topic::contacts, "a casting lies on a body without contact or shared nodes there",
+           fmt::format(
+               "more than {} of the smaller surface is nearer than {} of a face's size, with neither "
+               "contact, condition nor shared nodes: a forgotten side, a riser that was meshed separately",
+               percent(k_least_share_of_skin), number(k_near))}}};
 }
 
 }  // namespace solidus::check

@@ -103,7 +103,8 @@ FindingFamily findings_sources() {
           .place = 285,
           .find = &find,
           .rows = {{Topic::conditions, "a source that misses",
-                    fmt::format("it is on farther than {} times its size from the box of what it heats",
+                    fmt::format("it is on while farther than {} times its size from the bounding box of the "
+                                "bodies that it heats",
                                 number(k_beside))},
                    {Topic::conditions, "a source that is on when the run ends"},
                    {Topic::conditions, "a source that moves far in a step",

@@ -243,22 +243,23 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
 // The place of the family among the others, its search, and the rows of the reference page, whose numbers are
 // the thresholds that the search compares with.
 FindingFamily findings_stage_times() {
-  return {.name = "times of stages",
-          .place = 120,
-          .find = &find,
-          .rows = {
-              {Topic::pour, "steps of a stage",
-               fmt::format("while the casting freezes: fixed ones, or the first of adaptive ones, above 1/{} "
-                           "of the estimate, `min_step` above 1/{}; `max_step` above the stage; more than {} "
-                           "fixed steps, or of `max_step`, in one stage of a case where something is poured",
-                           number(k_fine), number(k_least_steps_to_freeze), number(k_many))},
-              {Topic::conditions, "tables of time on another clock than their stage",
-               fmt::format("one with `time = \"run\"` that is over when its stage begins, or in the first of "
-                           "several rounds; one with `time = \"stage\"` that begins when the stage does in "
-                           "the run, or of whose range the stage sees less than {}",
-                           percent(k_least_share_of_range))},
-              {Topic::mechanics, "a support that begins later",
-               "on a surface of a casting that was there before, of one number and not `relative`"}}};
+  return {
+      .name = "times of stages",
+      .place = 120,
+      .find = &find,
+      .rows = {{Topic::pour, "steps of a stage",
+                fmt::format("while the casting freezes: fixed ones, or the first of adaptive ones, above "
+                            "1/{} of the estimated time to freeze, `min_step` above 1/{} of it; `max_step` "
+                            "longer than the stage; more than {} fixed steps, or steps of `max_step`, in one "
+                            "stage of a case where something is poured",
+                            number(k_fine), number(k_least_steps_to_freeze), number(k_many))},
+               {Topic::conditions, "tables of time on another clock than their stage",
+                fmt::format("one with `time = \"run\"` that has ended when its stage begins, or in the first "
+                            "of several rounds; one with `time = \"stage\"` that begins at the time at which "
+                            "the stage begins in the run, or of whose range the stage uses less than {}",
+                            percent(k_least_share_of_range))},
+               {Topic::mechanics, "a support that begins later",
+                "on a surface of a casting that existed before, a constant and not `relative`"}}};
 }
 
 }  // namespace solidus::check

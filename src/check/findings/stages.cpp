@@ -146,10 +146,10 @@ FindingFamily findings_stages() {
           .place = 100,
           .find = &find,
           .rows = {{Topic::pour, "nothing cools a casting in a later stage",
-                    fmt::format("neither a condition nor a contact acts on it, for more than {} of the time "
-                                "that it takes to freeze",
+                    fmt::format("neither a condition nor a contact acts on it, for more than {} of the "
+                                "estimated time to freeze",
                                 percent(k_short))},
-                   {Topic::pour, "a freed skin that nothing cools",
+                   {Topic::pour, "a surface that was freed and that nothing cools",
                     fmt::format("in such a stage, more than {} of the faces that contacts cooled before have "
                                 "neither a contact nor a condition",
                                 percent(k_small))}}};

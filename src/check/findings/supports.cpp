@@ -373,7 +373,7 @@ FindingFamily findings_supports() {
                     "stage (translations, without inertia)"},
                    {Topic::mechanics, "nothing holds a body against its weight",
                     "neither a support nor a normal or the friction of a contact acts along gravity"},
-                   {Topic::mechanics, "gravity takes a body off what it lies on",
+                   {Topic::mechanics, "gravity moves a body away from its support",
                     "no surface in contact lies below it, nor next to it with friction, and neither a "
                     "support along gravity nor a load acts"}}};
 }

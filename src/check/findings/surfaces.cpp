@@ -271,14 +271,14 @@ FindingFamily findings_surfaces() {
       .place = 210,
       .find = &find,
       .rows = {
-          {Topic::conditions, "two films on some faces of two surfaces",
-           fmt::format("of one number each, the weaker one at least {} of the other",
+          {Topic::conditions, "two films on faces that two surface groups share",
+           fmt::format("both constants, the weaker one at least {} of the other",
                        percent(k_least_ratio_of_films))},
           {Topic::conditions, "a temperature, radiation or flux on a surface in contact", "of one number"},
           {Topic::conditions, "a held temperature with another condition",
            "on the same surface, at the same time"},
           {Topic::conditions, "a body that is held at one temperature", "all of it"},
-          {Topic::mechanics, "a pressure that pulls; a pressure on a surface in contact", "of one number"},
+          {Topic::mechanics, "a negative pressure; a pressure on a surface in contact", "of one number"},
           {Topic::mechanics, "a casting between two supports", "they hold all ends along one axis"},
           {Topic::mechanics, "two motions of one surface along one axis", "of different size"}}};
 }

@@ -11,12 +11,12 @@ void open_conductance_key(Section<Law>& s) {
   s.quantity("open_conductance", &Law::open_conductance, "W/m2/K")
       .positive()
       .doc(
-          "h_o, the conductance of the interface that has just opened; without it that of contact. With "
+          "h_o, the conductance at a gap of zero; without it that of contact. With "
           "spots and gas it follows from the asperities.");
 }
 
 struct ConstantGap {
-  static constexpr std::string_view name = "constant", doc = "the same whatever the gap";
+  static constexpr std::string_view name = "constant", doc = "the same for every gap";
   std::optional<double> open_conductance{};  ///< h_o; absent: that of contact
 
   static void keys(Section<ConstantGap>& s) { open_conductance_key(s); }

@@ -22,10 +22,10 @@ struct ExponentialCoefficient {
         .doc("mu_0 of a surface that has not slid.");
     s.key("last_coefficient", &ExponentialCoefficient::last)
         .positive()
-        .doc("mu_inf, to which the coefficient runs in.");
+        .doc("mu_inf, the coefficient after running in.");
     s.key("running_in", &ExponentialCoefficient::running_in)
         .positive()
-        .doc("z_0, the internal variable in its unit after which 63 % of the change has come.");
+        .doc("z_0, the internal variable in its unit at which 63 % of the change has happened.");
   }
   template <class T>
   T coefficient(const T& z) const {

@@ -28,7 +28,9 @@ struct GasGap {
     s.quantity("temperature_jump", &GasGap::temperature_jump, "m/K")
         .initially("0 m/K")
         .at_least(0)
-        .doc("c_g of the gas between spots (3.48): widens its gap by c_g x temperature; air 1.3e-9 m/K.");
+        .doc(
+            "c_g of the gas between contact spots (3.48), which widens its gap by c_g x temperature; air "
+            "1.3e-9 m/K.");
     open_conductance_key(s);
   }
 

@@ -35,9 +35,7 @@ struct PowerContact {
   static void keys(Section<PowerContact>& s) {
     s.quantity("conductance", &PowerContact::conductance, "W/m2/K")
         .positive()
-        .doc(
-            "h_co, from body to body: where the bodies touch, and where the gap law starts at a gap of "
-            "zero.");
+        .doc("h_co, from body to body: of touching bodies, and of the gap law at a gap of zero.");
     s.key("exponent", &PowerContact::exponent)
         .initially(0.0)
         .range(0, 2)

@@ -32,7 +32,7 @@ struct SidedContact {
   static void keys(Section<SidedContact>& s) {
     Section<At> at(
         "sides",
-        "The conductances of both sides, of contact_law = \"sides\" (3.45): one section, or several "
+        "The conductances of both sides, for contact_law = \"sides\" (3.45): one section, or several "
         "from cold to hot, linear between their temperatures and constant outside.");
     at.quantity("temperature", &At::temperature, "K")
         .positive()

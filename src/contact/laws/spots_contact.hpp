@@ -9,7 +9,7 @@ namespace solidus::contact {
 
 struct SpotsContact {
   static constexpr std::string_view name = "spots",
-                                    doc = "spots of contact and what is between them (3.46-3.48)";
+                                    doc = "contact spots and the gas between them (3.46-3.48)";
   Asperities asperities;
   std::optional<double> hardness{};  ///< H_e [Pa], needed with a gas between the spots
 
@@ -68,7 +68,7 @@ struct SpotsContact {
  private:
   static Section<Asperities> asperity_keys() {
     using A = Asperities;
-    Section<A> s("asperities", "The rough surfaces, of contact_law = \"spots\" (3.47, 3.48).");
+    Section<A> s("asperities", "The rough surfaces, for contact_law = \"spots\" (3.47, 3.48).");
     s.quantity("roughness", &A::roughness, "m")
         .positive()
         .doc("Root mean square height of both surfaces together, sqrt(s1^2 + s2^2).");

@@ -96,7 +96,7 @@ struct TableContact : Tabulated {
     s.function("contact_conductance", &TableContact::contact_conductance, "W/m2/K")
         .of({Argument::pressure})
         .at_least(0)
-        .doc("Conductance as a table of the pressure; at none it is that of a gap of zero.");
+        .doc("Conductance as a table of the pressure; at zero pressure it is that of a gap of zero.");
   }
   std::optional<Table> contact_conductance{};  ///< h(t_N)
 

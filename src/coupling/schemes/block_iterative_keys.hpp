@@ -85,10 +85,10 @@ struct BlockIterativeScheme {
     using I = IterationKeys;
     Section<I> s("iteration", "The block-iterative scheme: both phases in alternation until they agree.");
     s.choice("sweep", &I::sweep,
-             {{"gauss_seidel", I::Sweep::gauss_seidel, "each phase sees the newest state of the other"},
-              {"jacobi", I::Sweep::jacobi, "each phase sees the other as the iteration before left it"}})
+             {{"gauss_seidel", I::Sweep::gauss_seidel, "the newest one"},
+              {"jacobi", I::Sweep::jacobi, "that of the iteration before"}})
         .initially("gauss_seidel")
-        .doc("Who sees whom (monograph 4.2, 4.3).");
+        .doc("Which state of the other phase a phase uses (monograph 4.2, 4.3).");
     s.choice("passes", &I::passes,
              {{"isentropic", I::Passes::isentropic, "the mechanical phase holds the entropy of the iterate"},
               {"isothermal", I::Passes::isothermal, "it holds the temperature of the iterate"}})
@@ -97,17 +97,18 @@ struct BlockIterativeScheme {
     s.choice("loop", &I::loop,
              {{"nested", I::Loop::nested, "each phase is solved to its own tolerance"},
               {"single", I::Loop::single,
-               "one Newton step of each phase per iteration, and whole passes once they agree; a step where "
+               "one Newton step of each phase per iteration, and full solves of both phases once they agree; "
+               "a step where "
                "that does not converge is solved once more with `nested`, before it is cut"}})
         .initially("nested")
         .doc("How the iterations of the phases and those between them are nested (monograph 4.4).");
     s.choice("relaxation", &I::relaxation,
-             {{"none", I::Relaxation::none, "whole steps"},
-              {"fixed", I::Relaxation::fixed, "steps times `factor`"},
+             {{"none", I::Relaxation::none, "1"},
+              {"fixed", I::Relaxation::fixed, "`factor`"},
               {"aitken", I::Relaxation::aitken,
-               "isothermal passes only: factor from the last two steps, the first one `factor`"}})
+               "isothermal passes only: computed from the last two changes, at first `factor`"}})
         .initially("none")
-        .doc("What becomes of the temperature's change between two iterates.");
+        .doc("Factor on the change of temperature between two iterates.");
     s.key("factor", &I::factor)
         .initially(1.0)
         .range(1e-3, 2.0)
@@ -118,8 +119,8 @@ struct BlockIterativeScheme {
         .initially(1e-8)
         .range(1e-14, 0.1)
         .doc(
-            "The iteration ends when temperature and displacement change by less than this share of what the "
-            "step changed. The first law closes to the tolerances of the phases, whatever this one.");
+            "The iteration ends when temperature and displacement change by less than this fraction of their "
+            "change in the step. Energy is conserved to the tolerances of the phases, whatever this one is.");
     s.key("max_iterations", &I::max_iterations)
         .initially(100)
         .range(1, 10000)

@@ -17,12 +17,11 @@ struct DoublePassScheme {
   ThermalFlow flow = ThermalFlow::kept;
 
   static void keys(Section<DoublePassScheme>& s) {
-    s.choice(
-         "passes", &DoublePassScheme::passes,
-         {{"isentropic", Passes::isentropic, "the mechanical phase holds the entropy of every point"},
-          {"isothermal", Passes::isothermal,
-           "it holds the temperature to which its own deformation leads, found in a few iterations; for weak "
-           "coupling only"}})
+    s.choice("passes", &DoublePassScheme::passes,
+             {{"isentropic", Passes::isentropic, "the mechanical phase holds the entropy of every point"},
+              {"isothermal", Passes::isothermal,
+               "it holds the temperature that follows from its own deformation, found in a few iterations; "
+               "for weak coupling only"}})
         .initially("isentropic")
         .doc("Which split the double pass is made of.");
     declare_thermal_flow(s, &DoublePassScheme::flow);

@@ -9,8 +9,8 @@ namespace solidus::coupling {
 struct IsentropicScheme : SequentialScheme {
   static constexpr std::string_view name = "isentropic";
   static constexpr std::string_view doc =
-      "mechanical phase at fixed entropy of every point, then thermal phase at fixed configuration: "
-      "stable however strongly deformation and heat are coupled";
+      "mechanical phase at fixed entropy of every point, thermal phase at fixed configuration: stable "
+      "however strongly deformation and heat are coupled";
   static void keys(Section<IsentropicScheme>& s) { declare(s); }
 
   SchemeTraits traits() const { return {.mapping = mechanics::Mapping::isentropic, .leaves_stepping = true}; }

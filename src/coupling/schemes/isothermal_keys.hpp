@@ -7,8 +7,9 @@
 namespace solidus::coupling {
 
 struct IsothermalScheme : SequentialScheme {
-  static constexpr std::string_view name = "isothermal",
-                                    doc = "mechanical phase at fixed temperature, then the same";
+  static constexpr std::string_view name = "isothermal";
+  static constexpr std::string_view doc =
+      "mechanical phase at fixed temperature, thermal phase at fixed configuration";
   static void keys(Section<IsothermalScheme>& s) { declare(s); }
 
   SchemeTraits traits() const {

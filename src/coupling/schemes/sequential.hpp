@@ -50,13 +50,12 @@ struct SequentialScheme {
     s.choice(
          "order", static_cast<std::optional<PhaseOrder> Scheme::*>(&SequentialScheme::order),
          {{"automatic", std::nullopt,
-           "heat_first; mechanics_first with friction where nothing gets hot enough to melt and nothing "
-           "yields "
-           "while temperatures differ, whose heat is then conducted in the step that makes it, with "
-           "thermal_return_mapping, with inertia and with printed forms of structural heat"},
+           "heat_first; but mechanics_first with inertia, with thermal_return_mapping, with printed forms of "
+           "structural heat, and with friction where nothing gets hot enough to melt and nothing yields "
+           "while temperatures differ (the heat of friction is then conducted in the step that makes it)"},
           {"heat_first", PhaseOrder::heat_first,
-           "displacements and stresses belong to the temperatures of the step's end; what deformation and "
-           "friction warm is conducted in the next step"},
+           "displacements and stresses belong to the temperatures of the step's end; the heat of deformation "
+           "and friction is conducted in the next step"},
           {"mechanics_first", PhaseOrder::mechanics_first,
            "as printed (4.40 - 4.54): displacements and stresses belong to the temperatures of the step's "
            "start"}})
@@ -66,11 +65,10 @@ struct SequentialScheme {
     s.key("gap_tolerance", static_cast<std::optional<double> Scheme::*>(&SequentialScheme::gap_tolerance))
         .range(0.0, 1.0)
         .doc(
-            "With heat first: share of the heat through interfaces that may be misplaced because the gaps "
-            "are other ones than expected from the motion of the step before. Where it is more, the step is "
-            "solved again, heat through the mean of the gaps at both of its ends, until it is not, three "
-            "times at most. 0.02 where it is not given; one: never, and heat passes through the gaps of the "
-            "step's start.");
+            "With heat first: fraction of the heat through interfaces that may be wrong because the gaps "
+            "differ from those extrapolated from the step before. Where the fraction is larger, the step is "
+            "solved again, with the mean of the gaps at its start and end, three times at most. Without it "
+            "0.02; 1: no step is solved again, and heat passes through the gaps of the step's start.");
   }
 };
 

@@ -13,9 +13,9 @@ void declare_thermal_flow(Section<Scheme>& s, ThermalFlow Options::*flow) {
            {{"kept", ThermalFlow::kept,
              "as the mechanical phase has found it: stress and flow stay in equilibrium"},
             {"restarted", ThermalFlow::restarted,
-             "as printed (4.45, 4.49, 4.54): solid metal is mapped again from the internal variables of the "
-             "step's start at the temperatures of its end, and stress and flow that are shown are those; "
-             "liquid and mush keep the flow of the melt"}})
+             "as printed (4.45, 4.49, 4.54): the return mapping of solid metal is repeated from the internal "
+             "variables of the step's start at the temperatures of its end, and the results show its stress "
+             "and flow; liquid and mushy metal keep the flow of the mechanical phase"}})
       .initially("kept")
       .doc(
           "Plastic flow in the thermal phase of the isentropic and the isothermal split and of the double "

@@ -12,10 +12,11 @@ namespace {
 Section<ExternalData> external_keys() {
   // The keys of [external]: what is called and how, its constants, and how the heat that it makes is known.
   using E = ExternalData;
-  Section<E> s("external",
-               "The law of the solid from a shared object, instead of [plasticity] "
-               "(docs/guide/external_laws.md). It runs with --trust-laws alone. It answers from the "
-               "coherency_fraction of [casting] on; what is more liquid is the Maxwell element.");
+  Section<E> s(
+      "external",
+      "The law of the solid from a shared object, instead of [plasticity] "
+      "(docs/guide/external_laws.md). It is loaded only with --trust-laws. It holds above the "
+      "coherency_fraction of [casting]; metal with a lower solid fraction follows the Maxwell model.");
   s.key("library", &E::library).doc("The shared object, relative to this file.");
   s.choice("interface", &E::interface,
            {{"mfront", ExternalInterface::mfront, "the generic interface of MFront, version 1"},
@@ -37,10 +38,10 @@ Section<ExternalData> external_keys() {
       .doc("Values of its external state variables besides the temperature, which do not change.");
   s.key("initial_state", &E::initial_state)
       .initially(Value::list({}))
-      .doc("Its state variables before anything has happened; empty: all zero.");
+      .doc("Its state variables at the start; empty: all zero.");
   s.key("unsymmetric", &E::unsymmetric)
       .initially(false)
-      .doc("The tangent is not symmetric, as with flow that is not associated.");
+      .doc("True: the tangent is not symmetric, as with non-associated flow.");
   s.choice(
        "dissipation", &E::dissipation,
        {{"automatic", ExternalDissipation::automatic,
@@ -49,12 +50,13 @@ Section<ExternalData> external_keys() {
         {"law", ExternalDissipation::law, "MFront: the dissipated energy; UMAT: SPD + SCD"},
         {"rpl", ExternalDissipation::rpl, "UMAT: RPL, without heat of elastic strain, which Solidus adds"}})
       .initially("automatic")
-      .doc("What of the inelastic work becomes heat; the rest is stored.");
+      .doc("The part of the inelastic work that becomes heat; the rest is stored.");
   s.key("taylor_quinney", &E::heat_share)
       .initially(0.9)
       .range(0, 1)
       .doc(
-          "Share of the inelastic work that becomes heat, where the law does not tell (Taylor and Quinney).");
+          "Fraction of the inelastic work that becomes heat, where the law does not compute it (Taylor and "
+          "Quinney).");
   s.place(&E::where);
   return s;
 }

@@ -20,8 +20,8 @@ const std::vector<Argument> k_temperature{Argument::temperature};
 Section<FlowCurveData> curve_keys() {
   Section<FlowCurveData> s("flow_curve",
                            "A measured flow curve: true stress over equivalent plastic strain at one "
-                           "temperature. Any number, in any order, each with strains of its own; linear in "
-                           "strain and temperature between them, level beyond the last ones.");
+                           "temperature. Any number of curves in any order, each with strains of its own; "
+                           "linear in strain and temperature between them, constant beyond the last ones.");
   s.quantity("temperature", &FlowCurveData::temperature, "K").positive().doc("Of the test.");
   s.function("stress", &FlowCurveData::stress, "Pa")
       .positive()
@@ -90,7 +90,8 @@ void isotropic_keys(Section<FlowData>& s) {
       .when("isotropic_hardening", with_flow_stress)
       .doc(
           "sigma_0, the yield stress of a tensile test at zero plastic strain. It must not rise with "
-          "temperature (2.121). Give small positive values up to the liquidus: what is partly solid yields.");
+          "temperature (2.121). Give small positive values up to the liquidus, because mushy metal yields "
+          "too.");
   parameter_keys(s, "isotropic_hardening", hardening_laws());
   s.sections("flow_curve", &FlowData::curves, curve_keys()).when("isotropic_hardening", {"table"});
 }
@@ -142,7 +143,7 @@ Section<FlowData> flow_keys() {
   s.key("allow_thermal_hardening", &FlowData::allow_thermal_hardening)
       .initially(false)
       .doc(
-          "Accepts a flow stress that rises with temperature, although plastic flow then takes entropy away "
+          "Accepts a flow stress that rises with temperature, although plastic flow then reduces entropy "
           "(2.120, 2.121).");
   s.place(&FlowData::where);
   return s;

@@ -17,22 +17,24 @@ void strength_keys(Section<GranularData>& s) {
       .positive()
       .of(temperature)
       .doc(
-          "c of Mohr and Coulomb with all of the binder: the strength in uniaxial compression is "
+          "Mohr-Coulomb cohesion c with all of the binder: the strength in uniaxial compression is "
           "2 c cos(friction_angle)/(1 - sin(friction_angle)).");
   s.quantity("friction_angle", &G::friction_angle, "rad")
       .range(0.01, 1.2)
-      .doc("Of the cone, which goes through the corners of Mohr and Coulomb's pyramid in compression.");
+      .doc(
+          "Mohr-Coulomb friction angle of the cone, which touches the compressive corners of the "
+          "Mohr-Coulomb pyramid.");
   s.quantity("dilatancy_angle", &G::dilatancy_angle, "rad")
       .initially("0 degree")
       .range(0, 1.2)
       .doc(
-          "By which grains that slide spread apart; at most friction_angle. Where it is less the tangent has "
-          "no symmetry.");
+          "Angle by which sliding grains move apart; at most friction_angle. Where it is less the tangent is "
+          "not symmetric.");
   s.function("tension_cutoff", &G::tension_cutoff, "Pa")
       .at_least(0)
       .of(temperature)
       .doc(
-          "The mean stress at which the solid opens, with all of the binder; at most cohesion "
+          "The tensile mean stress at which the material opens, with all of the binder; at most cohesion "
           "cot(friction_angle), the apex of the cone.");
   s.function("crushing_pressure", &G::crushing_pressure, "Pa")
       .positive()
@@ -46,7 +48,7 @@ void bond_keys(Section<GranularData>& s) {
   s.quantity("residual_cohesion", &G::residual_cohesion, "Pa")
       .initially("0 Pa")
       .at_least(0)
-      .doc("What is left of the cohesion without binder or bonds.");
+      .doc("Cohesion without binder or with all bonds broken.");
   s.key("softening_strain", &G::softening_strain)
       .range(1e-6, 10)
       .doc(
@@ -55,35 +57,34 @@ void bond_keys(Section<GranularData>& s) {
   s.function("burnout_rate", &G::burnout_rate, "1/s")
       .at_least(0)
       .of({Argument::temperature})
-      .doc(
-          "Share of the binder that is left which burns in a second. It does not come back. Without it no "
-          "binder burns.");
+      .doc("Fraction of the remaining binder that burns per second. Without it no binder burns.");
   s.key("burnt_stiffness", &G::burnt_stiffness)
       .initially(1.0)
       .range(1e-4, 1)
-      .doc("Share of young_modulus that is left without binder.");
+      .doc("Fraction of young_modulus that remains without binder.");
   s.key("residual_stiffness", &G::residual_stiffness)
       .initially(1e-3)
       .range(0, 0.1)
       .doc(
-          "Share of the stiffness that no yielding takes: grains that touch. It keeps the equations of loose "
-          "sand solvable.");
+          "Fraction of the stiffness that remains when the material yields (grains still touch). It keeps "
+          "the equations of loose sand solvable.");
   s.quantity("relaxation_time", &G::relaxation_time, "s")
       .initially("0 s")
       .at_least(0)
       .doc(
-          "In which stress above the strength fades (Duvaut and Lions): bands in which a softening solid "
-          "breaks are not as narrow as an element.");
+          "Time constant with which stress above the strength decays (Duvaut and Lions), so that "
+          "localisation bands of a softening solid do not shrink to one element.");
 }
 
 Section<GranularData> granular_keys() {
   Section<GranularData> s(
       "granular",
       "The law of a mould, core or shell of grains and a binder, instead of [plasticity]: "
-      "a cone with cut-offs, a binder that burns out (docs/guide/sand.md).");
+      "a Drucker-Prager cone with limits in tension and compression, and a binder that burns out "
+      "(docs/guide/sand.md).");
   strength_keys(s);
   bond_keys(s);
-  s.key("source", &GranularData::source).initially("").doc("Where angles and shares come from.");
+  s.key("source", &GranularData::source).initially("").doc("Source of the angles and fractions.");
   s.place(&GranularData::where);
   return s;
 }

@@ -23,7 +23,7 @@ Section<PhaseChangeData> phase_change_keys() {
   s.key("name", &PhaseChangeData::name).doc("For messages.");
   s.key("solidification", &PhaseChangeData::solidification)
       .initially(false)
-      .doc("Its fraction is the solid fraction; at most one phase change.");
+      .doc("The fraction of this phase change is the solid fraction; true for at most one phase change.");
   s.quantity("latent_heat", &PhaseChangeData::latent_heat, "J/kg").at_least(0).doc("Released on cooling.");
   s.key("volume_change", &PhaseChangeData::volume_change)
       .initially(0.0)
@@ -32,8 +32,8 @@ Section<PhaseChangeData> phase_change_keys() {
   s.key("graphite", &PhaseChangeData::graphite)
       .initially(false)
       .doc(
-          "It is the precipitation of graphite, whose volume_change is computed of [graphite] and is not "
-          "given.");
+          "True: it is the precipitation of graphite, whose volume_change is computed from [graphite] and is "
+          "not given.");
   s.section("fraction", &PhaseChangeData::fraction, fraction_keys());
   s.key("source", &PhaseChangeData::source).initially("").doc("Where the data come from.");
   s.place(&PhaseChangeData::where);
@@ -45,7 +45,9 @@ void tearing_keys(Section<Casting>& s) {
   s.key("brittle_range", &Casting::brittle_range)
       .initially(Value::list({0.90, 0.99}))
       .range(0, 1)
-      .doc("Solid fractions between which strain tears the metal open and no melt heals it.");
+      .doc(
+          "Solid fractions between which strain can tear the metal open and no melt flows in to heal the "
+          "tear.");
   s.key("crack_strain", &Casting::crack_strain)
       .range(1e-6, 10)
       .doc(
@@ -67,9 +69,8 @@ void arms_and_melt_keys(Section<Casting>& s) {
       .positive()
       .doc(
           "Secondary arm spacing after a local solidification time of one second: c in c (t_f/1 s)^n. "
-          "Without it there are no secondary_arm_spacing and dimensionless_niyama, and melt flows through "
-          "mush "
-          "as with 50 um.");
+          "Without it there are no fields secondary_arm_spacing and dimensionless_niyama, and the "
+          "permeability of the mushy zone is that of a spacing of 50 um.");
   s.key("arm_spacing_exponent", &Casting::arm_spacing_exponent)
       .initially(0.333)
       .range(0, 1)
@@ -78,53 +79,50 @@ void arms_and_melt_keys(Section<Casting>& s) {
       .positive()
       .doc(
           "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama and for the flow "
-          "of "
-          "melt that feeds mush (2 mPa s without it); not twice_shear_viscosity, which is a numerical "
+          "of melt through the mushy zone (2 mPa s without it); not twice_shear_viscosity, which is a "
+          "numerical "
           "choice.");
   s.quantity("critical_pressure_drop", &Casting::critical_pressure_drop, "Pa")
       .initially("101325 Pa")
       .positive()
       .doc(
-          "The drop of the melt's pressure at which pores form: in dimensionless_niyama, and in mush "
-          "(pore_fraction).");
+          "The pressure drop of the melt at which pores form in the mushy zone, for dimensionless_niyama and "
+          "pore_fraction.");
 }
 
 Section<Casting> casting_keys() {
   // The keys of [casting], in the order of the reference: strength of mush, hot tearing, moulds, arm spacing,
   // and flow of melt.
-  Section<Casting> s("casting", "What the criteria of a casting need (docs/theory/criteria.md).");
+  Section<Casting> s("casting", "Data for the criteria of a casting (docs/theory/criteria.md).");
   s.key("coherency_fraction", &Casting::coherency_fraction)
       .initially(0.75)
       .range(0, 1)
       .doc(
-          "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
-          "melt, strain after it is strain of the casting, and from it to one the network takes part in the "
-          "contraction of its metal by a share that rises from zero to one.");
+          "Solid fraction from which the solid is a coherent network: strain before coherency is strain of "
+          "the melt, strain after it is strain of the casting. From this fraction to 1 the part of the "
+          "metal's contraction that the network follows rises from zero to one.");
   s.quantity("pore_tension", &Casting::pore_tension, "Pa")
       .initially("100 Pa")
       .positive()
       .doc(
-          "Tension, counted from the pressure of the atmosphere, at which pores open in metal below the "
-          "coherency_fraction: a pool that nothing feeds shrinks into pores from then on (field "
-          "pore_fraction) and stays on its walls. Next to none by default, for films of oxide and gas open "
-          "at "
-          "once.");
+          "Tension, relative to the pressure of the atmosphere, at which pores open in metal below the "
+          "coherency_fraction: an unfed pool then shrinks by forming pores (field pore_fraction) and stays "
+          "on its walls. Almost zero by default, because oxide films and gas open at once.");
   tearing_keys(s);
   s.key("rigidity", &Casting::rigidity)
       .initially(1.0)
       .range(0, 1)
       .doc(
-          "Of a mould: the share of the expansion of graphite that it holds, so that it feeds the casting; "
-          "to "
-          "the rest its wall gives way. feeding.mould_rigidity of a case goes before it.");
+          "Of a mould: the fraction of the graphite expansion that it resists, so that it feeds the casting; "
+          "the rest moves the mould wall. feeding.mould_rigidity of a case takes precedence.");
   arms_and_melt_keys(s);
   s.key("source", &Casting::source).initially("").doc("Where the data come from.");
   return s;
 }
 
 Section<Gas> gas_keys() {
-  Section<Gas> s("gas", "Gas of two atoms in solution, for gas pores (docs/theory/gas.md).");
-  s.key("name", &Gas::name).doc("Which gas it is, for people: hydrogen, nitrogen.");
+  Section<Gas> s("gas", "Diatomic gas in solution, for gas pores (docs/theory/gas.md).");
+  s.key("name", &Gas::name).doc("Name of the gas in messages: hydrogen, nitrogen.");
   s.key("melt", &Gas::melt)
       .range(-1e5, 1e5)
       .doc(
@@ -134,42 +132,41 @@ Section<Gas> gas_keys() {
   s.quantity("content", &Gas::content, "m3/kg")
       .at_least(0)
       .doc(
-          "What the melt usually holds when it is poured, volume of gas at standard state (0 degC, 101325 "
-          "Pa) "
-          "per mass; gas.content of a case goes before it.");
+          "Usual content of the melt when it is poured, volume of gas at standard state (0 degC, 101325 Pa) "
+          "per mass; gas.content of a case takes precedence.");
   s.quantity("surface_tension", &Gas::surface_tension, "N/m")
       .at_least(0)
       .doc(
-          "Of the melt against the gas: a pore between dendrites has half of secondary_arm_spacing as its "
-          "radius and is held shut by twice the tension over the radius.");
+          "Surface tension between melt and gas: a pore between dendrites has half of secondary_arm_spacing "
+          "as its radius, and its gas has to overcome twice the tension over the radius.");
   s.key("source", &Gas::source).initially("").doc("Where the data come from.");
   return s;
 }
 
 Section<Graphite> graphite_keys() {
   Section<Graphite> s("graphite",
-                      "Carbon and silicon of an iron, and the graphite of them (docs/theory/graphite.md).");
+                      "Carbon and silicon of a cast iron, and its graphite (docs/theory/graphite.md).");
   s.key("carbon", &Graphite::carbon).range(2.1, 5).doc("In mass per cent.");
   s.key("silicon", &Graphite::silicon).range(0, 6).doc("In mass per cent.");
-  s.choice("rule", &Graphite::rule,
-           {{"lever", Graphite::Rule::lever, "all carbon beyond what austenite of the eutectic holds"},
-            {"scheil", Graphite::Rule::scheil,
-             "that of the eutectic alone, of which less is left next to primary austenite that keeps its "
-             "carbon"}})
+  s.choice(
+       "rule", &Graphite::rule,
+       {{"lever", Graphite::Rule::lever, "all carbon beyond the solubility in eutectic austenite"},
+        {"scheil", Graphite::Rule::scheil,
+         "that of the eutectic alone; there is less eutectic, because primary austenite keeps its carbon"}})
       .initially("lever")
-      .doc("How much graphite there is when the last melt freezes.");
+      .doc("Amount of graphite when the last melt has frozen.");
   s.choice("form", &Graphite::form,
            {{"flake", Graphite::Form::flake, "grey iron"},
             {"compacted", Graphite::Form::compacted, "vermicular, compacted iron"},
             {"nodular", Graphite::Form::nodular, "spheroidal graphite, ductile iron"}})
       .doc(
-          "What it looks like. Flakes grow in touch with the melt, which they squeeze through the mush; "
-          "nodules grow within shells of austenite, which push the mould's wall: of their expansion a wall "
-          "that yields takes more (docs/theory/graphite.md).");
+          "Form of the graphite. Flakes grow in contact with the melt and push it through the mushy zone; "
+          "nodules grow within shells of austenite, which push the mould wall: a yielding wall takes more of "
+          "their expansion (docs/theory/graphite.md).");
   s.key("expansion", &Graphite::expansion)
       .initially(0.032)
       .range(0, 0.1)
-      .doc("Relative volume that one mass per cent of graphite adds as it precipitates.");
+      .doc("Relative increase of volume for one mass per cent of precipitated graphite.");
   s.key("source", &Graphite::source).initially("").doc("Where the data come from.");
   return s;
 }
@@ -177,28 +174,28 @@ Section<Graphite> graphite_keys() {
 Section<LocalLaw> local_keys() {
   // First the measures of how the metal froze, of which one is given, then the values along it.
   Section<LocalLaw> s("local",
-                      "Strength, elongation, hardness and grain size by where the metal froze, as measured "
-                      "on castings (docs/theory/local_properties.md).");
+                      "Strength, elongation, hardness and grain size as functions of the local freezing "
+                      "conditions, measured on castings (docs/theory/local_properties.md).");
   s.quantity("section", &LocalLaw::section, "m")
       .initially(Value::list())
       .doc(
-          "Thicknesses of the wall for which the values hold, rising; a place of a casting counts by "
-          "plate_thickness. This, arm_spacing or cooling_rate. Between the values a power law is taken, "
-          "beyond them nothing is said.");
+          "Wall thicknesses of the values, rising; a place of a casting is looked up by its plate_thickness. "
+          "Give this, arm_spacing or cooling_rate. Between the values a power law is used; beyond them the "
+          "fields have no value.");
   s.quantity("arm_spacing", &LocalLaw::arm_spacing, "m")
       .initially(Value::list())
-      .doc("Secondary arm spacings for which the values hold, rising.");
+      .doc("Secondary arm spacings of the values, rising.");
   s.quantity("cooling_rate", &LocalLaw::cooling_rate, "K/s")
       .initially(Value::list())
-      .doc("Cooling rates near the end of freezing for which the values hold, rising.");
+      .doc("Cooling rates near the end of freezing of the values, rising.");
   s.quantity("tensile_strength", &LocalLaw::tensile_strength, "Pa")
       .initially(Value::list())
       .doc("Tensile strength there.");
   s.key("elongation", &LocalLaw::elongation)
       .initially(Value::list())
       .doc("Elongation at fracture there, as a share: 0.07 is 7 per cent.");
-  s.key("hardness", &LocalLaw::hardness).initially(Value::list()).doc("Brinell's number there.");
-  s.quantity("grain_size", &LocalLaw::grain_size, "m").initially(Value::list()).doc("Size of grains there.");
+  s.key("hardness", &LocalLaw::hardness).initially(Value::list()).doc("Brinell hardness there.");
+  s.quantity("grain_size", &LocalLaw::grain_size, "m").initially(Value::list()).doc("Grain size there.");
   s.key("spread", &LocalLaw::spread)
       .initially(0.0)
       .range(0, 1)
@@ -215,7 +212,7 @@ void liquid_keys(Section<MaterialData>& s) {
         {std::string(law->name()), static_cast<LiquidModel>(models.size()), std::string(law->doc())});
   s.choice("liquid_model", &MaterialData::liquid_model, models)
       .initially("maxwell")
-      .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
+      .doc("Response of liquid and mushy metal to shear; f_S is the solid fraction.");
   std::map<std::string_view, std::vector<std::string>> models_with;
   for (const LiquidLaw* law : liquid_laws())
     for (const LawParameter& parameter : law->parameters())
@@ -235,7 +232,9 @@ void liquid_keys(Section<MaterialData>& s) {
 /// Declares density, conductivity and specific heat.
 void heat_keys(Section<MaterialData>& s) {
   const std::vector<Argument> temperature{Argument::temperature};
-  s.function("density", &MaterialData::density, "kg/m3").positive().doc("Of the reference configuration.");
+  s.function("density", &MaterialData::density, "kg/m3")
+      .positive()
+      .doc("Density in the reference configuration.");
   s.function("conductivity", &MaterialData::conductivity, "W/m/K")
       .positive()
       .of(temperature)
@@ -244,18 +243,19 @@ void heat_keys(Section<MaterialData>& s) {
       .positive()
       .of(temperature)
       .doc(
-          "At constant pressure, as handbooks have it, or what specific_heat_at says; without the latent "
-          "heat of "
-          "the phase changes that are given below.");
+          "At constant pressure, as in handbooks, unless specific_heat_at says otherwise; without the latent "
+          "heat of the phase changes that are given below.");
   s.choice(
        "specific_heat_at", &MaterialData::specific_heat_at,
        {{"constant_pressure", SpecificHeatAt::constant_pressure,
-         "free of stress, as calorimeters and handbooks have it: C_p"},
+         "free of stress, as in calorimeters and handbooks: C_p"},
         {"constant_strain", SpecificHeatAt::constant_strain,
          "at zero strain: C_v of the monograph (2.49c), below C_p by 9 k alpha^2 T/rho, some 4 to 8 % of a "
          "hot metal"}})
       .initially("constant_pressure")
-      .doc("What specific_heat was measured at. Where only heat is computed it makes no difference.");
+      .doc(
+          "The condition under which specific_heat was measured. Where only heat is computed it makes no "
+          "difference.");
 }
 
 /// Declares elastic constants and thermal expansion.
@@ -275,35 +275,35 @@ void elastic_keys(Section<MaterialData>& s) {
       .doc("Coefficient of linear thermal expansion, of the kind that expansion_as says.");
   s.choice("expansion_as", &MaterialData::expansion_as,
            {{"mean", ExpansionAs::mean,
-             "the secant: change of length from expansion_reference to the temperature over the difference "
-             "of the two, as handbooks and dilatometers have it"},
+             "the secant: relative change of length from expansion_reference to the temperature, over the "
+             "difference of the two, as in handbooks"},
             {"instantaneous", ExpansionAs::instantaneous,
-             "the tangent: change of length per kelvin at the temperature, as physical theory and some "
-             "codes have it; the program integrates it"}})
+             "the tangent: relative change of length per kelvin at the temperature, as in physical theory "
+             "and some codes; the program integrates it"}})
       .initially("mean")
-      .doc("What the values of expansion are; of a number without a table both are the same.");
+      .doc("The kind of the expansion coefficient; for a single number both are the same.");
   s.quantity("expansion_reference", &MaterialData::expansion_reference, "K")
       .initially("20 degC")
       .positive()
-      .doc("Where the length is taken as 1 in the measurement of the expansion.");
+      .doc("Temperature at which the strain of the expansion measurement is zero.");
 }
 
 Section<MaterialData> material_keys() {
   // The keys of a card on its first level: names, thermal properties, elastic ones, and the sections.
-  Section<MaterialData> s(
-      "", "A material: every property with unit, source and the temperatures for which it holds.");
+  Section<MaterialData> s("",
+                          "A material: every property with its unit, its source and the range of "
+                          "temperatures in which it is valid.");
   s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");
   s.key("designations", &MaterialData::designations)
       .initially(Value::list())
       .doc(
-          "Names of standards and of the trade by which one may look for the material: who writes one of "
-          "them "
-          "in a case is told its name in the library.");
+          "Standard and trade names of the material: where a case uses one of them, the error names the "
+          "material of the library.");
   s.key("like", &MaterialData::like)
       .initially("")
       .doc(
-          "Another material (a name in the library, or a file): every key that is not given here is taken "
-          "from it, in [plasticity] too.");
+          "Another material (a name in the library, or a file): keys that are not given here are taken from "
+          "it, those of [plasticity] one by one too.");
   const std::vector<Argument> temperature{Argument::temperature};
   heat_keys(s);
   elastic_keys(s);
@@ -311,11 +311,10 @@ Section<MaterialData> material_keys() {
       .positive()
       .of(temperature)
       .doc(
-          "Of the liquid: eta in s = eta * strain rate (s the stress deviator, tensor strain rate), which is "
-          "TWICE the Newtonian "
-          "shear viscosity. Left out, the program chooses it: the melt then has in every step a modulus that "
-          "is small against the metallostatic head and the strength of the shell, and says which. The real "
-          "1e-3 Pa s has no effect on stress.");
+          "Viscosity eta of the liquid in s = eta * strain rate (s the stress deviator, tensor strain rate), "
+          "which is TWICE the Newtonian shear viscosity. Without it the program chooses it, so that the "
+          "modulus of the melt in a step is small against the metallostatic pressure and the strength of the "
+          "solid shell, and reports it. The real 1e-3 Pa s has no effect on stress.");
   liquid_keys(s);
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
   s.section("plasticity", &MaterialData::plasticity, flow_section());

@@ -37,7 +37,7 @@ struct BinaryAlloy {
         .doc("Of the pure solvent.");
     s.quantity("eutectic", static_cast<double Law::*>(&Law::eutectic), "K")
         .positive()
-        .doc("What is liquid there freezes isothermally.");
+        .doc("Eutectic temperature, at which the rest of the liquid freezes.");
     s.key("partition", static_cast<double Law::*>(&Law::partition))
         .range(0, 1)
         .doc("Partition coefficient k of the solute.");

@@ -8,7 +8,8 @@ namespace solidus::material {
 struct Degenerated {
   static constexpr std::string_view name = "degenerated";
   static constexpr std::string_view doc =
-      "viscoplastic with the yield stress times f_S; in the liquid s = eta d(eps_vp)/dt with eta = "
+      "viscoplastic with the yield stress times f_S; in the liquid the stress deviator is s = eta "
+      "d(eps_vp)/dt with eta = "
       "plasticity.viscosity (2.79 - 2.83)";
   static constexpr bool dashpot = false, needs_rate = true;
 

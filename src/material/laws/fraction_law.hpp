@@ -66,13 +66,13 @@ template <class Law>
 void liquidus_key(Section<Law>& s) {
   s.quantity("liquidus", static_cast<double Law::*>(&Law::liquidus), "K")
       .positive()
-      .doc("The fraction is 0 above.");
+      .doc("Temperature above which the fraction is 0.");
 }
 template <class Law>
 void solidus_key(Section<Law>& s) {
   s.quantity("solidus", static_cast<double Law::*>(&Law::solidus), "K")
       .positive()
-      .doc("The fraction is 1 below.");
+      .doc("Temperature below which the fraction is 1.");
 }
 
 }  // namespace solidus::material

@@ -9,7 +9,7 @@ namespace solidus::material {
 inline constexpr LawParameter k_hardening_modulus{
     .key = "hardening_modulus",
     .unit = "Pa",
-    .doc = "H, the slope over plastic strain; of saturation it may be left out (0).",
+    .doc = "H, the slope over plastic strain; with saturation it may be left out (0).",
     .above_least = false,
     .continuation = Continuation::modulus};
 

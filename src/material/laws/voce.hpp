@@ -18,7 +18,7 @@ struct Voce {
       {"saturation_stress", "Pa", "sigma_inf, at least the flow stress at every temperature."},
       {.key = "saturation_rate",
        .unit = "1",
-       .doc = "delta: at xi = 1/delta, 63 % of the hardening is there.",
+       .doc = "delta: at xi = 1/delta, 63 % of the hardening is reached.",
        .continuation = Continuation::positive},
       left_out_as_zero(k_hardening_modulus)};
 
