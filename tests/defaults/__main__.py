@@ -27,26 +27,26 @@ TIGHT = {
 LIMIT = 3600  # [s] of a run
 
 HEAD = """\
-# What the defaults are worth
-How much do results change when the equations are solved far more exactly, and when time steps are much shorter?
-`./dev defaults` finds it with the cases of `cases/` and writes this page. Each case is run three times:
+# Accuracy of the default settings
+How much do results change with much smaller tolerances, and with much shorter time steps? `./dev defaults` measures it
+with the cases of `cases/` and writes this page. Each case is run three times:
 
-1. as it is, with the default tolerances, at which the program takes the equations of a step for solved;
-2. with tolerances so small that they do not matter (1e-10 for the balance of forces, 1e-7 for the displacements, 1e-11
-   for the balance of heat, each relative), column *tolerances*;
-3. with these and with time steps a quarter as long besides, or error limits of adaptive steps a quarter as large.
+1. as it is, with the default tolerances of the iterations;
+2. with tolerances so small that they have no influence (1e-10 for the balance of forces, 1e-7 for the displacements,
+   1e-11 for the balance of heat, each relative), column *tolerances*;
+3. with these tolerances and with time steps a quarter as long, or error limits of adaptive steps a quarter as large.
 
-The columns *tolerances* and *steps a quarter as long* have the largest difference of any probe (measuring point) of the
-case between the run as it is and the other one, at any time, in per cent of the range that the probe goes through, and
-with the name of the probe. Behind the comma is the difference of this probe at the last time that both runs reach. A
-case without probes is compared by the temperature of its hottest node, solid fraction, heat and force of the contact,
-or by the values along a line that it writes at the end. For a run that goes on until all is solid, *solid after A for B
-s* has that time in the run as it is, A, and in the other one, B. *Steps* is how many time steps the run as it is takes.
-Where their size adapts, other tolerances lead to other steps, so that a probe that changes suddenly differs much for a
-moment. Tests at a material point (`point/…`, without a mesh) have no tolerance to choose; their steps are those of all
-their curves together. *Answers* are those of the run as it is, ± the error of step and mesh that it states itself
-([how](../theory/step_and_mesh.md#the-error-of-an-answer)); in brackets the same with the shorter steps. Behind a colon
-is the [variant](../guide/case_file.md#variants) of a case, whose name the page of the case in `cases/` explains.
+The columns *tolerances* and *tolerances, and steps a quarter as long* have the largest difference of any probe of the
+case between the first run and the other one, at any time, in per cent of the range of the probe, with its name. The
+number after the comma is the difference of this probe at the last time that both runs reach. A case without probes is
+compared by the temperature of its hottest node, solid fraction, heat and force of the contact, or by the values along a
+line that it writes at the end. For a run that ends when all is solid, *solid after A for B s* has that time in the
+first run, A, and in the other one, B. *Steps* is the number of time steps of the first run. Where steps are adaptive,
+other tolerances lead to other steps, so that a probe that changes suddenly differs much for a moment. Tests at a
+material point (`point/…`, without a mesh) have no tolerance to choose; their steps are those of all their curves
+together. *Answers* are those of the first run, ± the error by step and mesh that it states
+([how](../theory/step_and_mesh.md#the-error-of-an-answer)); in brackets the same with the shorter steps. The name after
+a colon is a [variant](../guide/case_file.md#variants), which the page of the case in `cases/` explains.
 """
 
 LAST = ("Next: [when a step has converged](../decisions/0017-when-a-step-has-converged.md) · "
