@@ -110,6 +110,22 @@ class LocalProperties(ProgramTest):
         self.assertAlmostEqual(1e-6 * found["tensile_strength_in_upper_min[Pa]"], last["tensile_strength[MPa]"], delta=0.5)
         self.assertNotIn("elongation_in_upper_min", found, "the card has none")
 
+    def test_a_thin_wall_of_alsi7mg_lies_between_the_bars_of_the_data_sheet(self):
+        thin = PLATE.replace('"20 mm"]\nlower', '"5 mm"]\nlower').replace("220 mm", "205 mm").replace("1250 degC", "700 degC")
+        self.assertNotEqual(thin, PLATE)
+        self.write("case.toml", thin.format(material="aluminium_alsi7mg") + "".join(
+            PROBE.format(field=f, unit=u).replace("220 mm", "205 mm") for f, u in (("tensile_strength", "MPa"), ("elongation", "1"))))
+        self.done("run", "case.toml", "-o", "thin", "--no-progress")
+        with open(self.folder / "thin" / "history.csv", newline="") as table:
+            last = {column: float(value) for column, value in list(csv.DictReader(table))[-1].items()}
+        spacing = last["spacing[um]"]
+        # Bars of AlSi7Mg0.3 as cast, by its data sheet: 180 to 240 MPa and 4 to 8 % in gravity dies, 140 to 220 MPa and 2 to 6 % in sand.
+        self.assertTrue(28 < spacing < 68, last)
+        self.assertAlmostEqual(last["tensile_strength[MPa]"], between(spacing, 28, (180 + 240) / 2, 68, (140 + 220) / 2), delta=1e-3)
+        self.assertAlmostEqual(last["elongation[1]"], between(spacing, 28, 0.06, 68, 0.04), delta=1e-7)
+        # The card's arm spacings are those of A357 in sand and steel, 38.76 um (v s/K)^-0.276 (Wang and others, 2013), within a quarter.
+        self.assertAlmostEqual(spacing / (38.76 * last["rate[K/s]"] ** -0.276), 1, delta=0.25)
+
     def test_tables_of_an_own_card_in_a_run_that_is_continued_and_on_two_processes(self):
         self.write("own.toml", CARD)
         probes = [("elongation", "1"), ("grain_size", "mm")]
