@@ -61,15 +61,42 @@ class Report:
 
 
 def answers_of(summary):
-    """All answers that are numbers, those with an error first in the order of the run."""
+    """All answers that are numbers: those of the parts with an error first, what says the least last, else in the order of the run."""
     errors, rows = bands(summary), []
-    for name, value in answers(summary).items():
-        if not isinstance(value, (int, float)):
+    castings = summary.get("answers", {}).get("castings", {})
+    parts = [name for name, casting in castings.items() if not casting.get("riser") and not casting.get("gating")]
+    found = {**answers(summary), **_of_parts(summary, parts)}
+    for name, value in found.items():
+        # The least Niyama of all that was poured is that of a riser where there is one.
+        of_all = name.startswith("least Niyama") and any("least_niyama" in castings[part] for part in parts)
+        if not isinstance(value, (int, float)) or of_all:
             continue
         text, _, unit = name.rpartition("[")
-        unit = style.unit_text(unit.rstrip("]"))
-        rows.append(Answer(text[:1].upper() + text[1:] if ":" not in text else text, value, unit, errors.get(name)))
-    return sorted(rows, key=lambda row: row.error is None)
+        error = errors.get(name)
+        if text.endswith(": least Niyama"):
+            error = castings[text.partition(":")[0]]["least_niyama"].get("error[K^0.5 s^0.5/m]")
+            error = None if error is None else 1e-3 * error
+        rows.append(Answer(text[:1].upper() + text[1:] if ":" not in text else text, value, style.unit_text(unit.rstrip("]")), error))
+
+    def rank(row):
+        body, colon, said = row.name.partition(": ")
+        return said == "solid fraction" and row.value == 1, row.error is None, bool(colon) and body in castings and body not in parts
+    return sorted(rows, key=rank)
+
+
+def _of_parts(summary, parts):
+    """Name with unit -> number of what the run found in each part by itself: its least Niyama value and its strength by the card's tables."""
+    castings, criteria, found = summary.get("answers", {}).get("castings", {}), summary.get("criteria", {}), {}
+    for part in parts:
+        if "least_niyama" in castings[part]:
+            found[f"{part}: least Niyama[K0.5 s0.5/mm]"] = 1e-3 * castings[part]["least_niyama"]["value[K^0.5 s^0.5/m]"]
+        for key, text, unit, factor in (("tensile_strength", "tensile strength", "MPa", 1e-6), ("elongation", "elongation", "%", 100.0),
+                                        ("hardness", "hardness", "1", 1.0), ("grain_size", "grain size", "mm", 1e3)):
+            exact = {"MPa": "[Pa]", "mm": "[m]"}.get(unit, "")
+            if f"{key}_in_{part}_min{exact}" in criteria:
+                found[f"{part}: least {text}[{unit}]"] = factor * criteria[f"{key}_in_{part}_min{exact}"]
+                found[f"{part}: mean {text}[{unit}]"] = factor * criteria[f"{key}_in_{part}_mean{exact}"]
+    return found
 
 
 def chosen(sheets, wanted):
@@ -180,6 +207,11 @@ def numerics_of(toml, summary):
     return [" ".join(lines)]
 
 
+def _property(name):
+    """A property of a card as the page calls it."""
+    return "strength by place" if name == "local" else name.replace("_", " ").replace(".", ", ")
+
+
 def materials_of(cards):
     """One entry a material, with its bodies."""
     found = {}
@@ -187,7 +219,7 @@ def materials_of(cards):
         name = card["material"]
         if name not in found:
             content = card.get("card", {})
-            sources = [(source["property"].replace("_", " ").replace(".", ", "), source["source"] or "no source given")
+            sources = [(_property(source["property"]), source["source"] or "no source given")
                        for source in content.get("sources", [])]
             title = content.get("title") or name
             found[name] = MaterialSources(title, [], sources or [("", card.get("missing", "no sources are given"))])

@@ -116,9 +116,10 @@ def picture_page(template, report):
 def answer_page(template, report):
     """All answers with their errors, what was assumed, what the program warned of."""
     words = template.words
-    rows = [(row.name, number_text(row.value, row.error), error_text(row.error) if row.error is not None else words["no_error"],
-             "" if row.unit == "1" else row.unit) for row in report.answers]
-    out = f"<h2>{escape(words['answers'])}</h2>" + _table((words["answer"], words["value"], words["error"], ""), rows, "small", (1, 2))
+    unit = [" " + row.unit if row.unit not in ("", "1") else "" for row in report.answers]
+    rows = [(row.name, number_text(row.value, row.error) + of, error_text(row.error) + of if row.error is not None else words["no_error"])
+            for row, of in zip(report.answers, unit)]
+    out = f"<h2>{escape(words['answers'])}</h2>" + _table((words["answer"], words["value"], words["error"]), rows, "small", (1, 2))
     out += f'<p class="small" style="margin-top:2mm"><b>{escape(words["limits"])}.</b> {escape(words["limits_text"])}</p>'
     out += f"<h2>{escape(words['assumptions'])}</h2>"
     out += _table((words["body"], words["material"], words["start"], words["mass"]), report.bodies, "small", (3,))

@@ -55,6 +55,21 @@ class Pages(unittest.TestCase):
         self.assertEqual([(row.name, row.value, row.unit, row.error) for row in rows],
                          [("part: last melt froze", 10.0, "s", 1.0), ("Yield", 50.0, "%", None)])
 
+    def test_answers_of_the_part_come_before_those_of_a_riser_and_its_niyama_is_its_own(self):
+        froze = {"solid_fraction": 1, "last_melt_froze": {"value[s]": 10.0, "error[s]": 1.0}}
+        niyama = {"value[K^0.5 s^0.5/m]": 400.0, "error[K^0.5 s^0.5/m]": 60.0}
+        rows = answers_of({
+            "answers": {"castings": {"riser": {**froze, "riser": True, "least_niyama": {"value[K^0.5 s^0.5/m]": 40.0}},
+                                     "part": {**froze, "riser": False, "least_niyama": niyama}}},
+            "criteria": {"least_niyama[K^0.5 s^0.5/m]": 40.0, "tensile_strength_in_part_min[Pa]": 1.8e8, "tensile_strength_in_part_mean[Pa]": 1.9e8,
+                         "elongation_in_part_min": 0.04, "elongation_in_part_mean": 0.05, "tensile_strength_in_riser_min[Pa]": 1e8}})
+        self.assertEqual([(row.name, round(row.value, 9), row.unit, row.error) for row in rows][:3],
+                         [("part: last melt froze", 10.0, "s", 1.0), ("part: least Niyama", 0.4, "√(K s)/mm", 0.06), ("riser: last melt froze", 10.0, "s", 1.0)])
+        self.assertEqual([(row.name, round(row.value, 9), row.unit) for row in rows if "strength" in row.name or "elong" in row.name],
+                         [("part: least tensile strength", 180.0, "MPa"), ("part: mean tensile strength", 190.0, "MPa"),
+                          ("part: least elongation", 4.0, "%"), ("part: mean elongation", 5.0, "%")])
+        self.assertEqual([row.name for row in rows][-2:], ["part: solid fraction", "riser: solid fraction"])
+
     def test_contacts_tell_what_was_assumed(self):
         self.assertEqual(contacts_of({"contact": [{"name": "wall", "slave": "a", "master": "b", "heat": {
             "conductance": "1 W/m2/K", "gap_law": "gas", "slave_emissivity": 0.0}}]}), ["wall: a on b; conductance 1 W/m2/K, gap law gas"])
