@@ -33,6 +33,15 @@ def _error_of(entry, unit, factor=1.0):
     return None if error is None else factor * error
 
 
+def _niyama_of_parts(summary):
+    """The least Niyama value of the parts, with its name as of answers(): the criterion itself follows risers and gating too, whose low
+    values harm nobody. Nothing where the run tells none of single castings."""
+    castings = summary.get("answers", {}).get("castings", {}).values()
+    found = [c["least_niyama"] for c in castings if "least_niyama" in c and not c.get("riser") and not c.get("gating")]
+    least = min(found, key=lambda entry: entry["value[K^0.5 s^0.5/m]"], default=None)
+    return None if least is None else ("least Niyama[K0.5 s0.5/mm]", least)
+
+
 def _criteria(summary):
     """The criteria whose worst value is an answer, under its name with the unit."""
     fields.declare(summary)
@@ -53,6 +62,8 @@ def bands(summary):
     criteria = given.get("errors_of_criteria", {})
     for name, field in _criteria(summary).items():
         found[name] = _error_of(criteria.get(field.finding.split("[")[0]), "SI", field.factor)
+    if of_parts := _niyama_of_parts(summary):
+        found[of_parts[0]] = _error_of(of_parts[1], "K^0.5 s^0.5/m", 1e-3)
     return {name: band for name, band in found.items() if band is not None}
 
 
@@ -73,6 +84,8 @@ def places(summary):
         where = criteria.get(f"{field.finding.split('[')[0]}_at[m]")
         if where is not None:
             found[name] = where
+    if (of_parts := _niyama_of_parts(summary)) and "at[m]" in of_parts[1]:
+        found[of_parts[0]] = of_parts[1]["at[m]"]
     return found
 
 
@@ -88,6 +101,8 @@ def answers(summary):
     for name, field in _criteria(summary).items():
         if field.finding in criteria:
             found[name] = field.factor * criteria[field.finding] + field.offset
+    if of_parts := _niyama_of_parts(summary):
+        found[of_parts[0]] = 1e-3 * of_parts[1]["value[K^0.5 s^0.5/m]"]
     for contact, gap in given.get("largest_gaps", {}).items():
         found[f"largest gap of {contact}[mm]"] = 1e3 * gap["value[m]"]
     if "largest_distortion" in given:

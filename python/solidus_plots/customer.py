@@ -65,18 +65,13 @@ def answers_of(summary):
     errors, rows = bands(summary), []
     castings = summary.get("answers", {}).get("castings", {})
     parts = [name for name, casting in castings.items() if not casting.get("riser") and not casting.get("gating")]
-    found = {**answers(summary), **_of_parts(summary, parts)}
+    found = {**answers(summary), **_strength_of(summary, parts)}
     for name, value in found.items():
-        # The least Niyama of all that was poured is that of a riser where there is one.
-        of_all = name.startswith("least Niyama") and any("least_niyama" in castings[part] for part in parts)
-        if not isinstance(value, (int, float)) or of_all:
+        if not isinstance(value, (int, float)):
             continue
         text, _, unit = name.rpartition("[")
-        error = errors.get(name)
-        if text.endswith(": least Niyama"):
-            error = castings[text.partition(":")[0]]["least_niyama"].get("error[K^0.5 s^0.5/m]")
-            error = None if error is None else 1e-3 * error
-        rows.append(Answer(text[:1].upper() + text[1:] if ":" not in text else text, value, style.unit_text(unit.rstrip("]")), error))
+        unit = style.unit_text(unit.rstrip("]"))
+        rows.append(Answer(text[:1].upper() + text[1:] if ":" not in text else text, value, unit, errors.get(name)))
 
     def rank(row):
         body, colon, said = row.name.partition(": ")
@@ -84,12 +79,10 @@ def answers_of(summary):
     return sorted(rows, key=rank)
 
 
-def _of_parts(summary, parts):
-    """Name with unit -> number of what the run found in each part by itself: its least Niyama value and its strength by the card's tables."""
-    castings, criteria, found = summary.get("answers", {}).get("castings", {}), summary.get("criteria", {}), {}
+def _strength_of(summary, parts):
+    """Name with unit -> number: the strength of each part by the tables of its card."""
+    criteria, found = summary.get("criteria", {}), {}
     for part in parts:
-        if "least_niyama" in castings[part]:
-            found[f"{part}: least Niyama[K0.5 s0.5/mm]"] = 1e-3 * castings[part]["least_niyama"]["value[K^0.5 s^0.5/m]"]
         for key, text, unit, factor in (("tensile_strength", "tensile strength", "MPa", 1e-6), ("elongation", "elongation", "%", 100.0),
                                         ("hardness", "hardness", "1", 1.0), ("grain_size", "grain size", "mm", 1e3)):
             exact = {"MPa": "[Pa]", "mm": "[m]"}.get(unit, "")
