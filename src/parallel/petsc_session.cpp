@@ -25,12 +25,17 @@ namespace {
 class PassingVariable {
  public:
   enum class There { stays, is_replaced };
+  /// @param value  null: the variable is not there
   /// @param there  what becomes of a value that the variable has already
   PassingVariable(const char* name, const char* value, There there = There::stays) : name_(name) {
     const char* before = std::getenv(name);
     ours_ = before == nullptr || there == There::is_replaced;
     if (before != nullptr) before_ = before;
-    if (ours_) setenv(name, value, 1);
+    if (!ours_) return;
+    if (value != nullptr)
+      setenv(name, value, 1);
+    else
+      unsetenv(name);
   }
   ~PassingVariable() {
     if (!ours_) return;
@@ -79,6 +84,20 @@ constexpr std::pair<const char*, const char*> k_alone[] = {
      "hwloc_pci.so,hwloc_xml_libxml.so"},
 };
 
+/// By these Open MPI takes a process that a job of Slurm has started for one of several that srun has
+/// started, and ends it where it finds no others: one process alone starts without them.
+constexpr const char* k_of_a_job[] = {"SLURM_NODELIST", "SLURM_STEPID", "SLURM_STEP_ID"};
+
+/// Throws InputError where srun has started several copies of the program that cannot find each other: each
+/// would run the whole case, into the same folder.
+void require_connected_steps() {
+  const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  if (tasks == nullptr || std::string_view(tasks) == "1") return;
+  throw InputError({}, std::string("srun has started ") + tasks + " processes that cannot find each other",
+                   "`srun --mpi=pmix solidus run …` (`srun --mpi=list` says whether there is pmix), or "
+                   "`mpirun solidus run …` in the job");
+}
+
 /// Settings for several processes of one machine, which reach each other through its memory. Open MPI 5 would
 /// try the network all the same, and each process would print that it finds no "reachable pairing" between
 /// the interfaces of the machine and those of the same machine. Of the others Debian's settings leave out
@@ -112,7 +131,10 @@ void choose_temporary_folder(std::deque<PassingVariable>& settings) {
 bool initialize(int* n, char*** list) {
   std::deque<PassingVariable> settings;
   if (!launched()) {
+    require_connected_steps();
     for (const auto& [name, value] : k_alone) settings.emplace_back(name, value);
+    for (const char* name : k_of_a_job)
+      settings.emplace_back(name, nullptr, PassingVariable::There::is_replaced);
     choose_temporary_folder(settings);
   } else if (all_on_one_machine()) {
     for (const auto& [name, value] : k_on_one_machine) settings.emplace_back(name, value);

@@ -118,9 +118,24 @@ class Processes(ProgramTest):
         self.assertEqual(said.returncode, 1)
         self.assertIn("do not find each other", said.stderr)
 
+    # The variables are those that Slurm 22.05 gives a job of one task on a computer "vm".
+    JOB = {"SLURM_JOB_ID": "7", "SLURM_JOBID": "7", "SLURM_NODELIST": "vm", "SLURM_NNODES": "1", "SLURM_NTASKS": "1",
+           "SLURM_PROCID": "0", "SLURM_NODEID": "0", "SLURM_LOCALID": "0", "SLURM_TASKS_PER_NODE": "1"}
+    STEP = {"SLURM_STEP_ID": "0", "SLURM_STEPID": "0", "SLURM_STEP_NODELIST": "vm"}
+
     def test_a_batch_job_is_left_to_its_own_launcher(self):
-        said = self.run_block(4, "-o", "out", env=environment(SLURM_JOB_ID="7"))
+        said = self.run_block(4, "-o", "out", env=environment(**self.JOB))
+        self.assertEqual(said.returncode, 0, said.stderr)
         self.assertRegex(said.stdout, r"^1 process of \d+ cores?: in a batch job")
+
+    def test_srun_starts_one_process_or_connected_ones(self):
+        one = self.run_block(4, "-o", "one", env=environment(**self.JOB, **self.STEP, SLURM_STEP_NUM_TASKS="1"))
+        self.assertEqual(one.returncode, 0, one.stderr)
+        two = self.run_block(4, "-o", "two", env=environment(**self.JOB, **self.STEP, SLURM_STEP_NUM_TASKS="2"))
+        self.assertEqual(two.returncode, 1)
+        self.assertIn("srun has started 2 processes that cannot find each other", two.stderr)
+        self.assertIn("`srun --mpi=pmix solidus run", two.stderr)
+        self.assertFalse((self.folder / "two").exists())
 
     def stopped(self, send, *words):
         """Starts a long run, sends it a signal when it has taken three steps, and returns how it ended."""

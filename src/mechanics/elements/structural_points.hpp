@@ -7,6 +7,7 @@
 #include "linear/contribution.hpp"
 #include "linear/lane_slots.hpp"
 #include "material/derivatives/structural_lines.hpp"
+#include "mechanics/elements/point_temperature.hpp"
 #include "mechanics/state/structural_change.hpp"
 #include "mechanics/state/structural_lead.hpp"
 #include "mesh/block_geometry.hpp"
@@ -198,13 +199,5 @@ class StructuralPoints {
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
   double dt_ = 0;
 };
-
-/// The temperature at a point of a batch from nodal values. Where all nodes of an element have one value it
-/// is that value to the last bit.
-Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
-                    std::span<const double> nodal);
-/// The same of a quantity that must not leave the range of its nodes: basis functions of quadratic shapes
-/// are negative in places.
-Lane within_nodes(const mesh::BlockGeometry& geometry, Index batch, int point, std::span<const double> nodal);
 
 }  // namespace solidus::mechanics
