@@ -10,7 +10,7 @@ from program import SOURCES, ProgramTest, solidus
 
 PAGE = SOURCES / "docs/guide/troubleshooting.md"
 SHOWN_FOLDER = "/home/you/plate"  # what the page has for the folder of the case
-STOPPED = "## When a run stops on its way"  # from there on mistakes are run
+STOPPED = "## When a run stops"  # from there on mistakes are run
 
 
 def seeded(case, change):
