@@ -37,6 +37,8 @@ struct CriterionContext {
   FeedingOptions feeding_options = {};
   /// Tables of strength and grain of the cards, [body]; empty: there are none.
   std::vector<std::vector<material::LocalLaw>> local_laws = {};
+  /// Names of the bodies in the case, which their groups of the mesh need not have, [body].
+  std::vector<std::string> names = {};
 };
 
 class CriterionKind {

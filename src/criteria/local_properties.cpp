@@ -86,6 +86,7 @@ std::unique_ptr<LocalProperties> LocalProperties::make(const CriterionContext& c
 LocalProperties::LocalProperties(const CriterionContext& context)
     : mesh_(context.mesh),
       laws_(context.local_laws),
+      names_(context.names),
       freezing_(context.mesh, context.kind, context.heat->storage(),
                 {.evaluation = context.evaluation, .bodies = bodies_with_tables(context)}),
       ghosts_(context.mesh) {
@@ -172,7 +173,7 @@ std::vector<CriterionResult> LocalProperties::findings(const CriterionRecord& re
     for (std::size_t b = 0; b < of_body.size(); ++b) {
       const Range range = of_body[b].over_processes();
       if (!(range.room > 0)) continue;
-      const std::string name = std::string(fields_[f]->name) + "_in_" + mesh_.bodies[b].name,
+      const std::string name = std::string(fields_[f]->name) + "_in_" + names_[b],
                         unit(fields_[f]->exact_unit());
       found.push_back({name + "_min", unit, range.least, true, range.at_least});
       found.push_back({name + "_mean", unit, range.sum / range.room, false, {}});

@@ -43,6 +43,7 @@ class LocalProperties : public Criterion {
 
   const mesh::Mesh& mesh_;
   std::vector<std::vector<material::LocalLaw>> laws_;  ///< [body]
+  std::vector<std::string> names_;                     ///< in the case, [body]
   Freezing freezing_;                                  ///< of these bodies alone
   std::vector<Node> nodes_;                            ///< owned
   std::vector<const quantities::Quantity*> fields_;    ///< those that some card has

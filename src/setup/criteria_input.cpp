@@ -94,6 +94,13 @@ void check_one_alloy(const cases::CaseSpec& spec, const std::vector<char>& follo
   }
 }
 
+/// The names of bodies, by which findings of one body are told.
+std::vector<std::string> names_of_bodies(const cases::CaseSpec& spec) {
+  std::vector<std::string> names;
+  for (const auto& body : spec.bodies) names.push_back(body.name);
+  return names;
+}
+
 /// Strength by where the metal froze, of the cards of bodies that criteria follow.
 std::vector<std::vector<material::LocalLaw>> local_laws(const cases::CaseSpec& spec,
                                                         const std::vector<char>& followed) {
@@ -133,7 +140,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
       .feeders = spec.criteria.feeders,
       .feeding = spec.feeding.follow,
       .feeding_options = feeding_options(spec, mesh, materials, start),
-      .local_laws = local_laws(spec, followed)};
+      .local_laws = local_laws(spec, followed),
+      .names = names_of_bodies(spec)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   // A mistake in a criterion's options is told with the place of the section that it belongs to.
   for (const auto& kind : criteria::criterion_kinds()) {
