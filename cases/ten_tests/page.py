@@ -21,11 +21,11 @@ TITLES = {
     "rubbing": "two bodies that rub"}
 HEAD = """# Ten tests that any casting code must pass
 
-For whoever chooses a code, or writes one: the same ten small problems, meshes and steps for all, the right answer with its
-derivation, and one measure of error. The page is made of the answers in `cases/ten_tests/answers` by `./dev validate` and is not
-edited by hand. [The tests](../../cases/ten_tests/README.md) say how to run them and how to hand in answers of another code.
+For readers who choose a code, or write one: the same ten small problems, meshes and steps for all, the right answer with its
+derivation, and one measure of error. `./dev validate` writes this page from the answers in `cases/ten_tests/answers`; it is not
+edited by hand. [The tests](../../cases/ten_tests/README.md) explain how to run them and how to submit answers of another code.
 
-The error is the root mean square over the numbers of a test, each over the range that the test is about; 10 points up to 0.1 %,
+The error is the root mean square over the numbers of a test, each relative to its range in the test; 10 points up to 0.1 %,
 none from 10 % on, 5 at 1 %.
 """
 
@@ -59,8 +59,8 @@ def text():
         lines.append(f"| {title} | " + " | ".join(cell(answers, code, test) for code in heads) + " |")
     sums = [sum(score.points(answers[code, t]) for t in TITLES if (code, t) in answers) for code in heads]
     lines.append("| points of 100 | " + " | ".join(f"{s:.1f}" for s in sums) + " |")
-    lines += ["", "The least error of a test, and what is within 2 % of it, is in bold letters. All codes have the same meshes and steps of at most the same size; Solidus, "
-              "CalculiX and DOLFINx have quadrilaterals and hexahedra where FreeFEM has the triangles of the same nodes. Decks: "
+    lines += ["", "The smallest error of a test, and errors within 2 % of it, are in bold. All codes have the same meshes and steps of at most the same size; Solidus, "
+              "CalculiX and DOLFINx have quadrilaterals and hexahedra where FreeFEM has the triangles of the same nodes. Input files: "
               "`solidus.toml`, `calculix.inp`, `freefem.edp`, `fenicsx.py` in the folders of the tests.", "", "![Points of each code](images/ten_tests.png)", "",
               "## Where Solidus is not the best", ""]
     for test, title in TITLES.items():
@@ -78,34 +78,35 @@ def text():
             grouped.setdefault(why, []).append(TITLES[test])
         silent = [TITLES[t] for t in importlib.import_module(f"codes.{code}").TESTS if (code, t) not in answers]
         if silent:
-            grouped.setdefault("there is a deck, but no run of it has come to its end (the head of the deck says how far)", []).extend(silent)
+            grouped.setdefault("there is an input file, but no run of it was completed (the head of the file says how far it came)", []).extend(silent)
         lines += [f"- {heads[code]}: {'; '.join(tests)}: {why}." for why, tests in grouped.items()]
     lines += [MISSING, "", "Next: [the tests](../../cases/ten_tests/README.md) · [against experiments](README.md) · [compared with other "
               "programs](../comparison.md)", ""]
     return "\n".join(lines)
 
 
-NOTES = """Why, as far as it is known:
+NOTES = """Reasons, as far as they are known:
 
-- **a range with a eutectic**: what is left is the mesh: a quarter of the step changes nothing. The scripts have backward Euler, whose
-  error in time cancels a part of it by chance; with `heat.stepping = "backward_euler"` Solidus has 0.145 % as they have.
-- **a gap that closes and conducts**: the pressure at the middle of the interface is 0.3 % low, for two faces meet three there; the
-  force is right to 1e-6, as all temperatures are.
-- **heat of plastic work**: T is 1 % too high. Stresses of the ends of steps do the work of whole steps: of the elastic part, which is
-  passed in less than two of fifty steps, a part becomes heat. The run says so, and how much; with half the step it is 0.6 %. The
+- **a range with a eutectic**: the remaining error is that of the mesh: a quarter of the step changes nothing. The scripts use backward Euler,
+  whose error in time cancels a part of it by chance; with `heat.stepping = "backward_euler"` Solidus has 0.145 % too.
+- **a gap that closes and conducts**: the pressure at the middle of the interface is 0.3 % low, because two faces touch three there; the
+  force and all temperatures are right to 1e-6.
+- **heat of plastic work**: T is 1 % too high. The work of a step is computed with the stress at its end: a part of the elastic work, in the
+  first two of fifty steps, becomes heat. The run reports how much; with half the step it is 0.6 %. The
   script for DOLFINx takes the mean flow stress of a step times its plastic strain, which is exact for linear hardening.
 
 - **Weiner and Boley's shell**: nearly all of the error of both codes is in one number of thirteen, 6 % of the yield stress at 2.2 mm
-  after 5 s, where the stress rises by 3 MPa within an element of 0.4 mm, and which froze in the first second, of ten steps. There the
-  script is 0.4 % nearer. Of the other twelve numbers none of Solidus is off by more than 0.23 %, of the script by 0.31 %.
+  after 5 s, where the stress rises by 3 MPa within an element of 0.4 mm, which froze in the first second, within ten steps.
+  There the script is 0.4 % more accurate. The largest error of the other twelve numbers is 0.23 % for Solidus, 0.31 % for the script.
 
-FreeFEM and DOLFINx solve equations that their user writes: freezing, plasticity and what passes between two bodies are in the scripts,
-not in the codes. The scripts know of the answer what a general program does not: in `ring_on_core` that the gap is closed, in
-`closing_gap` and `rubbing` that flow, gap and pressure are the same along the interface, in `rubbing` the pressure and the speed too. That of `weiner_boley` has an unknown for each face that stays plane, and knows nothing of the
-answer. None is written for `pipe`: the balance of the melt that sinks would be the script's, and is already the derivation.
+FreeFEM and DOLFINx solve equations that their user writes: freezing, plasticity, contact and heat between two bodies are in the scripts,
+not in the codes. The scripts use knowledge of the answer that a general program does not have: in `ring_on_core` that the gap is closed, in
+`closing_gap` and `rubbing` that flow, gap and pressure are the same along the interface, in `rubbing` the pressure and the speed too. That
+of `weiner_boley` has an unknown for each face that stays plane, and uses no knowledge of the answer. There is none for `pipe`: the
+balance of the sinking melt would be in the script, and is already the derivation of the answer.
 """
-MISSING = """- OpenFOAM 1912: `laplacianFoam` has neither latent heat nor mechanics; none of the ten is one that it could answer.
-- Codes that are sold: no one has handed in answers."""
+MISSING = """- OpenFOAM 1912: `laplacianFoam` has neither latent heat nor mechanics; it cannot compute any of the ten.
+- Commercial codes: no answers have been submitted."""
 
 
 def draw():

@@ -233,11 +233,11 @@ def table(values):
 
 HEAD = """# The wall of experiments
 
-For whoever asks what the program computes of what was measured: one row an experiment, whether it fits or not, and what was assumed.
-`./dev validate` runs them and writes this page; it is not edited by hand. [How to add one](add_an_experiment.md).
+Computed against measured values, one row per experiment, whether they agree or not, with the assumptions made.
+`./dev validate` runs the cases and writes this page; it is not edited by hand. [How to add one](add_an_experiment.md).
 
-The error of a measurement is that which its source states, or what is written below the table; the error of what is computed is
-the difference to a run with the coarser mesh and steps that the experiment names (none where a card or a formula answers).
+The error of a measurement is stated by its source, or below the table; the error of a computed value is the difference to a run
+with a coarser mesh and longer steps (none where the value comes from a material card or a formula).
 
 ![Computed over measured; the bars are both errors together](images/wall.png)
 """

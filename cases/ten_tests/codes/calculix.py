@@ -13,11 +13,11 @@ import score
 
 TESTS = ["stefan", "alloy", "corner", "clamped_cube", "weiner_boley", "ring_on_core"]
 WITHOUT = {
-    "closing_gap": "`*GAP CONDUCTANCE` knows pressure and temperature; one over the width of an open gap needs a subroutine "
+    "closing_gap": "`*GAP CONDUCTANCE` depends on pressure and temperature; a dependence on the width of an open gap needs a subroutine "
                    "(`gapcon.f`) and a compiler",
     "plastic_work": "plastic work does not become heat",
     "pipe": "no feeding",
-    "rubbing": "heat of friction takes a sliding speed that is given (`*GAP HEAT GENERATION`), not that of bodies that slide; no deck"}
+    "rubbing": "heat of friction uses a given sliding speed (`*GAP HEAT GENERATION`), not that of the bodies; no input file"}
 IN_CORE = [0.049, 0.001, 0.0]
 COMPONENTS = {"xx": 0, "yy": 1, "zz": 2, "xy": 3, "rr": 0, "tt": 2}
 

@@ -6,7 +6,7 @@ import score
 from codes import freefem
 
 TESTS = ["stefan", "alloy", "corner", "clamped_cube", "weiner_boley", "closing_gap", "plastic_work", "ring_on_core", "rubbing"]
-WITHOUT = {"pipe": "what is asked for is the balance of melt that sinks, which a library for equations does not have: a script would hold "
+WITHOUT = {"pipe": "the answer is the balance of sinking melt, which a library for equations does not have: a script would contain "
                    "the derivation of right.py, and be compared with itself"}
 PYTHON = os.environ.get("DOLFINX_PYTHON", "/usr/bin/python3")
 

@@ -7,7 +7,7 @@ import score
 
 TESTS = ["stefan", "alloy", "corner", "clamped_cube", "ring_on_core"]
 WITHOUT = dict.fromkeys(["weiner_boley", "closing_gap", "plastic_work", "pipe", "rubbing"],
-                        "a language for equations: whoever needs it writes plasticity, contact and feeding himself; no script here")
+                        "a language for equations: plasticity, contact and feeding must be written by the user; no script here")
 
 
 def version():
