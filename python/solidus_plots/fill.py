@@ -22,7 +22,7 @@ from solidus_plots.filling_drive import Drive, Tilt
 from solidus_plots.filling_flow import FlowError, FoamRun, version
 from solidus_plots.filling_gates import FEW, GOOD_SPEED, by_body, gate_of, vents_of, walls_of
 from solidus_plots.filling_history import History
-from solidus_plots.filling_mesh import write_mesh
+from solidus_plots.filling_mesh import SIDES, write_mesh
 from solidus_plots.filling_walls import walls_for, wetted
 from solidus_plots.many_runs import INTERRUPTED
 from solidus_plots.verb import sentence
@@ -184,11 +184,23 @@ def stretch_end(at):
     return at + (STRETCH if 1 <= at < FRAMES - 6 else 1)
 
 
+def air_near(cubes, metal, cells):
+    """The share of air in cubes at vents. Where none of them holds any, that of the cubes around, and so on: air that has not come up yet
+    leaves by the vents above it."""
+    air = 1 - np.asarray(metal, float)
+    for _ in range(int(np.ptp(cubes.cells, axis=0).max()) + 1):
+        if (air[cells] >= dictionaries.SHUT_SHARE).any():
+            break
+        beside = np.stack([cubes.number(cubes.cells + np.array(side)) for side in SIDES], axis=1)
+        air = np.maximum(air, np.where(beside >= 0, air[beside], 0).mean(axis=1))
+    return air[cells]
+
+
 def set_speeds(mould, run, history, flow):
     """Sets the speed of the metal in the gate, which brings a flow [m3/s], and that of the gas through each face of vents for the next
     stretch."""
     cavity, area = mould.cavity, mould.cavity.cubes.edge ** 2
-    speeds = dictionaries.vent_speeds(history.metal[cavity.faces[mould.vents]], flow, area) if len(mould.vents) else []
+    speeds = dictionaries.vent_speeds(air_near(cavity.cubes, history.metal, cavity.faces[mould.vents]), flow, area) if len(mould.vents) else []
     if mould.drive.kind() != "rate":
         velocity = mould.gate.direction * flow / mould.drive.area
         run.change_patch(history.name, "U", "gate", lambda _: dictionaries.gate_velocity(velocity))
@@ -231,14 +243,15 @@ def fill(mould, run, flow, history, watch):
             return "late"
         # A stretch brings a volume; the drive tells how long that takes.
         until = stretch_end(at)
-        duration = mould.drive.next(history.time, history.flowed(history.time), part * (until - at))
+        volume = part * (until - at)
+        duration = mould.drive.next(history.time, history.flowed(history.time), volume)
         if duration is None:
             return "stands"
         interval = short_number(duration / (until - at), mould.time)
         duration = interval * (until - at)
-        history.plan(duration, part * (until - at))
+        history.plan(duration, volume)
         set_walls(mould, run, flow, history, duration)
-        set_speeds(mould, run, history, part * (until - at) / duration)
+        set_speeds(mould, run, history, volume / duration)
         if mould.tilt.turns():
             dictionaries.write_gravity(run.folder, mould.tilt.gravity(history.time + 0.5 * duration))
         dictionaries.write_control(run.folder, flow, history.time + duration, interval)

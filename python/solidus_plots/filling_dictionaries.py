@@ -72,11 +72,10 @@ def field(folder, name, internal, patches, kind="volScalarField"):
 INSULATING = "type zeroGradient;"
 
 
-def vent_speeds(metal, flow, area):
-    """Outward speeds of the gas through faces of vents, which together let out what comes in [m/s]; faces that are shut have none. metal:
-    its share in the cube of each face, by whose gas the flow [m3/s] is divided; area: of a face [m2]."""
-    gas = 1 - np.asarray(metal, float)
-    gas = np.where(gas < SHUT_SHARE, 0, gas)
+def vent_speeds(air, flow, area):
+    """Outward speeds of the gas through faces of vents, which together let out what comes in [m/s]; faces that are shut have none. air:
+    its share in the cube of each face, by which the flow [m3/s] is divided; area: of a face [m2]."""
+    gas = np.where(np.asarray(air) < SHUT_SHARE, 0, air)
     if not gas.any():
         gas[:] = 1  # no air is left at a vent
     return flow / area * gas / gas.sum()

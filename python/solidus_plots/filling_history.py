@@ -6,8 +6,12 @@ import shutil
 import numpy as np
 
 from solidus_plots import filling_dictionaries as dictionaries
+from solidus_plots.filling_age import Ages
+from solidus_plots.filling_view import View
 
 FRONT_ROUNDS = 50  # of handing volume to cubes that hold air, until each is full at most
+BOTH = 0.1  # share of melt and of frozen metal from which a cube is mush
+MOST_MUSH = 0.95  # part of the mush whose temperature is looked at: single cubes at a front are not
 STATE = "state.npz"  # of a filling that has not come to its end
 
 
@@ -37,6 +41,11 @@ class History:
         self.front_velocity = np.full((n, 3), np.nan)
         self.temperature, self.metal, self.solid = np.full(n, mould.air), np.zeros(n), np.zeros(n)
         self.rows, self.levels = [], []
+        self.age, self.velocity = np.zeros(n), np.zeros((n, 3))
+        cavity, gate = mould.cavity, mould.gate
+        self._ages = Ages(cavity.cubes, cavity.faces[gate.faces], np.round(gate.direction))
+        self.view = View(cavity.cubes)
+        self.mush = 0.0  # how far mush was from its freezing temperature at most [K]
 
     # --- what the flow has computed --------------------------------------------------------------------------
 
@@ -56,6 +65,7 @@ class History:
                 wall.end(moments, self.metal, self._melt.conductivity, dictionaries.gas_conductivity())
         self._correct_volume(run)
         self._observe(run)
+        self.view.add(self.time, self.full, self.metal, self.temperature, self.velocity)
         self.frame = until
         self._save()
         for time, name in run.times():
@@ -75,8 +85,11 @@ class History:
         self._raw = melt + solid
         metal = np.clip(self._raw, 0, 1)
         new = np.flatnonzero(np.isnan(self.fill_time) & (metal >= 0.5))
+        velocity = run.read(name, "U")
+        self.age = self._ages.step(self.age, velocity if self.frame == 0 else self.velocity, velocity, self.metal, metal, time - self.time)
+        self.velocity = velocity
+        self._look_at_mush(temperature, melt, solid)
         if len(new):
-            velocity = run.read(name, "U")
             part = (0.5 - self.metal[new]) / np.maximum(metal[new] - self.metal[new], 1e-9)
             self.fill_time[new] = self.time + np.clip(part, 0, 1) * (time - self.time)
             self.arrival[new], self.front_velocity[new] = temperature[new], velocity[new]
@@ -86,13 +99,21 @@ class History:
         self.rows.append([time, 100 * self.full, self.flowed(time), self.heat_of_walls(),
                           float(temperature[metal > 0.5].min()) if (metal > 0.5).any() else np.nan])
 
+    def _look_at_mush(self, temperature, melt, solid):
+        """Cubes that hold both melt and frozen metal should have the temperature at which it freezes."""
+        both = (melt > BOTH) & (solid > BOTH)
+        if both.any():
+            self.mush = max(self.mush, float(np.quantile(np.abs(temperature[both] - self._melt.freezing), MOST_MUSH)))
+
     def _correct_volume(self, run):
         """The solver scales its three shares to a sum of one in every step, by which metal comes and goes at the front, and a cube from
         which air leaves faster than it comes ends up with more metal than it can hold. Both are set right after each stretch."""
         n = len(self.metal)
         self.metal = full_volume(self._raw, self.flowed(self.time) / self._mould.cavity.cubes.edge ** 3)
         self.solid = np.clip(self.solid, 0, self.metal)
-        self.corrected += float(np.abs(self.metal - self._raw).sum()) / n
+        # What goes from one cube to another counts once, and what the solver has lost or gained.
+        change = self.metal - self._raw
+        self.corrected += float(max(change.clip(0).sum(), (-change).clip(0).sum())) / n
         for field, values in (("gas", 1 - self.metal), ("melt", self.metal - self.solid), ("solid", self.solid)):
             run.change_cells(self.name, f"alpha.{field}", values)
         self.full = float(self.metal.mean())
@@ -126,11 +147,12 @@ class History:
         walls = {f"{wall.name}.{what}": getattr(wall, what) for wall in self._mould.walls for what in ("contact", "heat")}
         numbers = {"frame": self.frame, "name": self.name, "time": self.time, "full": self.full, "corrected": self.corrected,
                    "came": self.came, "resistance": self._mould.drive.resistance,
-                   "made_of": self.made_of, "rows": self.rows}
+                   "made_of": self.made_of, "rows": self.rows, "mush": self.mush}
         target = self._folder / STATE
         with target.with_suffix(".part").open("wb") as out:
             np.savez(out, numbers=json.dumps(numbers), levels=np.array(self.levels), fill_time=self.fill_time, arrival=self.arrival,
-                     front_velocity=self.front_velocity, temperature=self.temperature, metal=self.metal, solid=self.solid, **walls)
+                     front_velocity=self.front_velocity, temperature=self.temperature, metal=self.metal, solid=self.solid,
+                     age=self.age, velocity=self.velocity, **self.view.kept(), **walls)
         target.with_suffix(".part").rename(target)
 
     def resume(self, foam):
@@ -144,9 +166,11 @@ class History:
                 return False
             self.frame, self.name, self.time, self.full = (numbers[key] for key in ("frame", "name", "time", "full"))
             self.corrected, self.rows, self.levels = numbers["corrected"], numbers["rows"], list(kept["levels"])
+            self.mush = numbers["mush"]
+            self.view.restore(kept)
             self.came = [tuple(entry) for entry in numbers["came"]]
             self._mould.drive.resistance = numbers["resistance"]
-            for what in ("fill_time", "arrival", "front_velocity", "temperature", "metal", "solid"):
+            for what in ("fill_time", "arrival", "front_velocity", "temperature", "metal", "solid", "age", "velocity"):
                 setattr(self, what, kept[what])
             for wall in self._mould.walls:
                 wall.contact, wall.heat = kept[f"{wall.name}.contact"], kept[f"{wall.name}.heat"]

@@ -4,13 +4,15 @@ import json
 
 import numpy as np
 
-from solidus_plots import filling_film, filling_picture
+from solidus_plots import filling_film, filling_picture, filling_view
 from solidus_plots.compare import write_csv
 from solidus_plots.filling_mesh import HEADER, SIDES, Cubes, corners_of, write_mesh
 from solidus_plots.vtu import Grid
 from solidus_plots.vtu_writer import write_grid
 
 GOOD_SPEED = 0.5  # [m/s], J. Campbell, Castings, 2nd ed. 2003, section 2.1
+MUCH_CORRECTED = 0.05  # of the cavity, beyond which what was set right at fronts is warned of
+MUSH = 5.0  # that mush may be off its freezing temperature [K]
 NEARLY = 0.93  # of the cavity, from which on it counts as full when the time of filling is over
 MOST_WALLS = 4000  # entries of the heat of the moulds
 CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))  # VTK's hexahedron
@@ -168,44 +170,64 @@ def balances(mould, melt, history):
             "corrected": history.corrected}
 
 
-def answers(mould, melt, history, ended, balance):
-    """Sentences for whoever pours."""
-    degrees, cubes = 273.15, mould.cavity.cubes
-    reached = ~np.isnan(history.fill_time)
-    lines = []
-    if ended == "crawls":
-        lines.append(f"{100 * history.full:.1f} % of the cavity are full after {history.time:.3g} s, where the flow was given up: the air that is left "
-                     "goes by the last vents, too fast for its steps; freezing starts from the temperatures there")
-    elif ended == "stands":
-        lines.append(f"NOT filled: the metal stands at {100 * history.full:.1f} % of the cavity since {history.time:.3g} s: the pressure lifts it no higher, "
-                     "or it has frozen on its way")
-    elif ended == "full" or history.full >= NEARLY:
-        lines.append(f"filled after {history.time:.3g} s: {100 * history.full:.1f} % of the cavity"
-                     + ("" if ended == "full" else ", the rest is air that found no way out"))
-    else:
-        lines.append(f"NOT filled: {100 * history.full:.1f} % after {history.time:.3g} s, {history.time / mould.time:.2f} times the time of "
-                     "filling; air has no way out, or the cubes are too coarse")
-    liquidus = mould.material["liquidus"]
-    arrival = np.where(reached, history.arrival, np.inf)
+def places_of(mould, history):
+    """What a foundry looks at, with its place: [{kind, text, at [m], cold}], kind: coldest, misrun, joint, cold_shut or air."""
+    degrees, cubes, liquidus = 273.15, mould.cavity.cubes, mould.material["liquidus"]
+    centres, found = cubes.centres(), []
+
+    def add(kind, text, at):
+        found.append({"kind": kind, "text": f"{text} at {place_text(at)}", "at": [float(x) for x in at]})
+
+    arrival = np.where(np.isnan(history.fill_time), np.inf, history.arrival)
     coldest = int(arrival.argmin())
-    lines.append(f"coldest arrival {arrival[coldest] - degrees:.0f} degC at {place_text(cubes.centres()[coldest])}"
-                 + (f", below the liquidus of {liquidus - degrees:.0f} degC: misrun" if arrival[coldest] < liquidus else
-                    f", {arrival[coldest] - liquidus:.0f} K above the liquidus"))
+    cold = arrival[coldest] < liquidus
+    add("misrun" if cold else "coldest", f"coldest arrival {arrival[coldest] - degrees:.0f} degC", centres[coldest])
+    found[-1]["text"] += (f", below the liquidus of {liquidus - degrees:.0f} degC: misrun" if cold else
+                          f", {arrival[coldest] - liquidus:.0f} K above the liquidus")
     met = np.flatnonzero(joins(mould, history))
     if len(met):
         worst = met[history.arrival[met].argmin()]
-        lines.append(f"fronts met at {len(met)} cubes, the coldest with {history.arrival[worst] - degrees:.0f} degC at "
-                     f"{place_text(cubes.centres()[worst])}" + (", below the liquidus: cold shut" if history.arrival[worst] < liquidus else ""))
+        cold = history.arrival[worst] < liquidus
+        add("cold_shut" if cold else "joint", f"fronts met at {len(met)} cubes, the coldest with {history.arrival[worst] - degrees:.0f} degC", centres[worst])
+        found[-1]["text"] += ", below the liquidus: cold shut" if cold else ""
     for volume, place in air_closed_in(mould, history)[:3]:
         if volume > 0.5 * cubes.edge ** 3:
-            lines.append(f"air closed in: {1e6 * volume:.3g} cm3 at {place_text(place)}")
+            add("air", f"air closed in: {1e6 * volume:.3g} cm3", place)
+    return found
+
+
+def how_it_ended(mould, history, ended):
+    """A sentence."""
+    if ended == "crawls":
+        return (f"{100 * history.full:.1f} % of the cavity are full after {history.time:.3g} s, where the flow was given up: the air that is left "
+                "goes by the last vents, too fast for its steps; freezing starts from the temperatures there")
+    if ended == "stands":
+        return (f"NOT filled: the metal stands at {100 * history.full:.1f} % of the cavity since {history.time:.3g} s: the pressure lifts it no higher, "
+                "or it has frozen on its way")
+    if ended == "full" or history.full >= NEARLY:
+        return (f"filled after {history.time:.3g} s: {100 * history.full:.1f} % of the cavity"
+                + ("" if ended == "full" else ", the rest is air that found no way out"))
+    return (f"NOT filled: {100 * history.full:.1f} % after {history.time:.3g} s, {history.time / mould.time:.2f} times the time of "
+            "filling; air has no way out, or the cubes are too coarse")
+
+
+def answers(mould, history, ended, balance, places):
+    """Sentences for whoever pours."""
+    lines = [how_it_ended(mould, history, ended)] + [place["text"] for place in places]
     lines.append(f"the metal enters at {mould.speed:.2f} m/s"
                  + (f", above {GOOD_SPEED} m/s: folded oxide films in aluminium (Campbell)" if mould.speed > GOOD_SPEED else ""))
     came, there = balance["came"], balance["there"]
     lines.append(f"through the gate {1e6 * came:.5g} cm3, in the mould {1e6 * there:.5g} cm3: {100 * (there / came - 1):+.2f} %; "
                  f"{100 * balance['corrected']:.2g} % of the cavity were set right at fronts, where the solver loses or gains metal")
+    if balance["corrected"] > MUCH_CORRECTED:
+        lines.append(f"that is more than the usual 0.1 to {100 * MUCH_CORRECTED:.0f} %: the last air was not at a vent, and metal was handed to the cubes "
+                     "that held it; where and when the last tenth of the cavity fills is not sure. More cells, vents where the air is, or a slower "
+                     "rate help")
     lines.append(f"heat that the metal has lost {balance['lost']:.5g} J, that walls have taken {balance['walls']:.5g} J: a difference of "
                  f"{100 * (balance['lost'] - balance['walls']) / balance['brought']:+.2f} % of the heat that came above solid metal")
+    if history.mush > 0:
+        lines.append(f"metal that froze was within {history.mush:.2g} K of the temperature at which it is half solid"
+                     + (f", which is more than {MUSH:.0f} K: its heat is right, its temperatures are not" if history.mush > MUSH else ""))
     return lines
 
 
@@ -220,16 +242,21 @@ def write(folder, mould, melt, history, ended, seconds):
     grid.cell_data = {"fill_time": np.nan_to_num(history.fill_time, nan=history.time),
                       "temperature_at_arrival": np.where(np.isnan(history.arrival), temperature, history.arrival),
                       "speed_of_front": np.nan_to_num(np.linalg.norm(history.front_velocity, axis=1)),
-                      "last_air": last_air, "temperature": temperature, "body": mould.cavity.body.astype("i4")}
-    grid.units = {"fill_time": "s", "temperature_at_arrival": "K", "speed_of_front": "m/s", "last_air": "1", "temperature": "K"}
+                      "age": history.age, "last_air": last_air, "temperature": temperature, "body": mould.cavity.body.astype("i4")}
+    grid.units = {"fill_time": "s", "temperature_at_arrival": "K", "speed_of_front": "m/s", "age": "s", "last_air": "1", "temperature": "K"}
     grid.time = history.time
     write_grid(folder / "filling.vtu", grid)
     write_csv(folder / "filling.csv", ["t[s]", "full[%]", "through the gate[m3]", "heat of the walls[J]", "coldest metal[K]"], history.rows)
-    lines = answers(mould, melt, history, ended, balance)
+    places = places_of(mould, history)
+    lines = answers(mould, history, ended, balance, places)
     summary = {"made_of": history.made_of, "ended": ended, "driven": mould.drive.kind(), "time": history.time, "full": history.full, "gate_speed": mould.speed,
                "cells": len(mould.cavity.body), "edge": mould.cavity.cubes.edge, "seconds": round(seconds, 2), "balance": balance,
-               "answers": lines}
+               "mush": history.mush, "places": places, "answers": lines}
     (folder / "filling.json").write_text(json.dumps(summary, indent=2) + "\n")
+    nothing = np.where(history.metal > 0.5, 0.0, np.nan)
+    filling_view.write(folder, mould, melt, history, {
+        "fill_time": (history.fill_time, "s"), "temperature_at_arrival": (history.arrival, "K"), "age": (history.age + nothing, "s"),
+        "speed_of_front": (np.linalg.norm(history.front_velocity, axis=1), "m/s")}, places, lines)
     filling_picture.draw(folder / "filling.png", mould, grid)
     filling_film.draw(folder / "filling.gif", mould, [row[0] for row in history.rows], history.levels)
     return "\n".join(lines) + f"\nFilling in {folder}, in {seconds:.0f} s."

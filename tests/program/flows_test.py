@@ -11,6 +11,7 @@ from flow_scenes import ALUMINIUM, WATER, Scene, box
 from pages import blocks
 from program import SOURCES, ProgramTest
 from solidus_plots import filling_dictionaries as dictionaries
+from solidus_plots.filling_age import Ages
 from solidus_plots.vtu import read_fields
 
 FOUND = shutil.which("icoReactingMultiphaseInterFoam")
@@ -48,6 +49,22 @@ class Flows(ProgramTest):
             columns = [metal[(scene.cubes.cells[:, 0] == i) & (scene.cubes.cells[:, 1] == j)].sum() * 0.005 for i in range(4) for j in range(4)]
             self.assertLess(np.ptp(columns), 1e-3 * 0.1 * time)
             self.assertLess(np.abs(read("T") - 980).max(), 1e-6)
+
+    def test_metal_in_a_straight_duct_is_as_old_as_its_way_is_long(self):
+        """0.5 m/s along slipping walls; behind the first cubes of the front the age is distance over speed."""
+        speed, edge, n = 0.5, 0.005, 16
+        scene = Scene(box(n, 3, 3), edge, ALUMINIUM, gate=lambda x, d: d[:, 0] < 0, vent=lambda x, d: d[:, 0] > 0, speed=(speed, 0, 0),
+                      gravity=(0, 0, -1e-4))
+        frames = list(scene.frames(self.folder / "duct", 0.14, 0.01))
+        along = scene.cubes.cells[:, 0]
+        ages, age, metal, before, last = Ages(scene.cubes, np.flatnonzero(along == 0), [1, 0, 0]), np.zeros(9 * n), np.zeros(9 * n), None, 0.0
+        for time, read in frames:
+            velocity, now = read("U"), np.clip(read("alpha.melt"), 0, 1)
+            age = ages.step(age, velocity if before is None else before, velocity, metal, now, time - last)
+            metal, before, last = now, velocity, time
+        true = (along + 0.5) * edge / speed
+        self.assertLess(np.abs(age - true)[true < 0.08].max(), 1e-3)
+        self.assertLess(np.abs(age - true)[metal > 0.99].max(), edge / speed)
 
     @unittest.skipUnless(NIGHTLY, AT_NIGHT)
     def test_a_dam_that_breaks_runs_as_martin_and_moyce_measured(self):

@@ -1,5 +1,6 @@
 """Cubes of a cavity, gates, vents, walls and the start of freezing, without a flow: `solidus fill`."""
 
+import json
 from math import exp, sqrt
 from pathlib import Path
 import tempfile
@@ -10,11 +11,14 @@ import numpy as np
 
 from solidus_plots import filling_dictionaries as dictionaries
 from solidus_plots import fill, filling_film, filling_flow, filling_gates, filling_trust, filling_walls
+from solidus_plots.filling_age import Ages
 from solidus_plots.filling_cavity import cavity_of
 from solidus_plots.filling_drive import Drive, Tilt
 from solidus_plots.filling_history import full_volume
 from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
-from solidus_plots.filling_results import start_of, state_at
+from solidus_plots.filling_results import places_of, start_of, state_at
+from solidus_plots.filling_view import View, to_bytes
+from solidus_plots.filling_view import write as write_view
 from solidus_plots.vtu import Grid, ResultError
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -188,11 +192,23 @@ class Files(unittest.TestCase):
 
 class Vents(unittest.TestCase):
     def test_as_much_gas_leaves_as_metal_comes_from_where_gas_is(self):
-        speeds = dictionaries.vent_speeds(np.array([0.0, 0.5, 1.0]), 3e-5, 1e-5)
+        speeds = dictionaries.vent_speeds(np.array([1.0, 0.5, 0.0]), 3e-5, 1e-5)
         self.assertAlmostEqual(speeds.sum() * 1e-5, 3e-5, delta=1e-18)
         self.assertAlmostEqual(speeds[0] / speeds[1], 2, delta=1e-9)
         self.assertEqual(speeds[2], 0)
-        self.assertAlmostEqual(dictionaries.vent_speeds(np.ones(4), 4.0, 1.0)[0], 1, delta=1e-12)  # no gas: all alike
+        self.assertAlmostEqual(dictionaries.vent_speeds(np.zeros(4), 4.0, 1.0)[0], 1, delta=1e-12)  # no gas: all alike
+
+    def test_air_that_has_not_come_up_leaves_by_the_vents_above_it(self):
+        cubes = Cubes(np.zeros(3), 0.01, np.argwhere(np.ones((5, 1, 3), bool)))
+        top = cubes.number(np.array([[i, 0, 2] for i in range(5)]))
+        metal = np.ones(15)
+        metal[cubes.number(np.array([3, 0, 0]))] = 0.4
+        air = fill.air_near(cubes, metal, top)
+        self.assertEqual(int(air.argmax()), 3)
+        self.assertGreaterEqual(air.max(), dictionaries.SHUT_SHARE)
+        # Air at a vent is what it is.
+        metal[top[1]] = 0.7
+        self.assertEqual(fill.air_near(cubes, metal, top).round(9).tolist(), [0, 0.3, 0, 0, 0])
 
     def test_velocities_of_a_vent_are_read_back(self):
         text = dictionaries.vent_velocity(np.array([[0, 0, 0.5], [0, -0.25, 0]]))
@@ -261,6 +277,92 @@ class Drives(unittest.TestCase):
         # The top of the mould turns towards x: what falls in it falls towards x.
         np.testing.assert_allclose(tilt.gravity(2), [9.81, 0, 0], atol=1e-12)
         self.assertEqual(len(tilt.positions()), 9)
+
+
+class Age(unittest.TestCase):
+    def filled(self, forward, duration=0.012, speed=0.5, edge=0.005):
+        """A duct of 30 cubes whose metal moves as a plug: (age, true age, metal) when it is nearly full."""
+        cubes = Cubes(np.zeros(3), edge, np.argwhere(np.ones((30, 3, 3), bool)))
+        way = (cubes.cells[:, 0] + 0.5) * edge
+        way = way if forward else 30 * edge - way
+        sign = 1 if forward else -1
+        ages = Ages(cubes, np.flatnonzero(cubes.cells[:, 0] == (0 if forward else 29)), [sign, 0, 0])
+        velocity = np.tile([sign * speed, 0.0, 0.0], (len(way), 1))
+        age, metal, time = np.zeros(len(way)), np.zeros(len(way)), 0.0
+        while speed * (time + duration) < 30 * edge:
+            time += duration
+            now = np.clip((speed * time - way) / edge + 0.5, 0, 1)
+            age, metal = ages.step(age, velocity, velocity, metal, now, duration), now
+        return age, way / speed, metal
+
+    def test_in_a_straight_duct_age_is_distance_over_speed(self):
+        for forward in (True, False):
+            age, true, metal = self.filled(forward)
+            # Exactly where metal followed metal; the first of it, which ran ahead as a front, within half a cube and a moment.
+            behind = true < 0.1
+            self.assertLess(np.abs(age - true)[behind].max(), 1e-9)
+            self.assertLess(np.abs(age - true)[metal > 0.99].max(), 0.011)
+            self.assertTrue((age[metal < 0.01] == 0).all())
+
+    def test_metal_that_stands_gets_older_by_the_time(self):
+        cubes = Cubes(np.zeros(3), 0.01, np.argwhere(np.ones((4, 2, 2), bool)))
+        ages, still = Ages(cubes, np.flatnonzero(cubes.cells[:, 0] == 0), [1, 0, 0]), np.zeros((16, 3))
+        found = ages.step(np.linspace(0, 1, 16), still, still, np.ones(16), np.ones(16), 0.25)
+        self.assertLess(np.abs(found - np.linspace(0.25, 1.25, 16)).max(), 1e-12)
+
+    def test_a_path_that_leads_into_a_wall_stays_before_it(self):
+        cubes = Cubes(np.zeros(3), 0.01, np.argwhere(np.ones((4, 2, 2), bool)))
+        up = np.tile([0.0, 0.0, 1.0], (16, 1))
+        found = Ages(cubes, np.flatnonzero(cubes.cells[:, 0] == 0), [1, 0, 0]).step(np.ones(16), up, up, np.ones(16), np.ones(16), 0.1)
+        self.assertLess(np.abs(found - 1.1).max(), 1e-12)
+
+
+class Shown(unittest.TestCase):
+    """What the report gets of a filling."""
+
+    def test_many_cubes_are_joined_with_the_means_of_their_metal(self):
+        view = View(Cubes(np.zeros(3), 0.001, np.argwhere(np.ones((30, 30, 30), bool))))
+        self.assertEqual((view.factor, len(view.cells), view.edge), (2, 3375, 0.002))
+        metal = np.zeros(27000)
+        metal[np.arange(27000) % 2 == 0] = 1.0
+        view.add(0.1, 0.5, metal, np.where(metal > 0, 900.0, 300.0), np.ones((27000, 3)))
+        _, _, share, hot, moving = view.moments[0]
+        self.assertAlmostEqual(float(share.mean()), 0.5, delta=1e-3)
+        self.assertEqual((hot.min(), moving.max()), (900, 1))
+
+    def test_values_are_bytes_and_nothing_is_zero(self):
+        self.assertEqual(to_bytes(np.array([np.nan, 1.0, 2.0, 3.0, 9.0]), 1.0, 3.0).tolist(), [0, 1, 128, 255, 255])
+
+    def test_the_files_say_where_their_numbers_are_and_stay_small(self):
+        cavity = plate(0.005)
+        n = len(cavity.cubes.cells)
+        mould = SimpleNamespace(cavity=cavity, up=UP, pouring=973.0, material={"liquidus": 886.0},
+                                gate=SimpleNamespace(faces=np.array([0]), direction=np.array([1, 0, 0]), width=0.01))
+        history = SimpleNamespace(view=View(cavity.cubes))
+        for time in (0.1, 0.2, 0.3):
+            history.view.add(time, time, np.full(n, time > 0.15, float), np.full(n, 900.0), np.full((n, 3), 0.5))
+        with tempfile.TemporaryDirectory() as name:
+            write_view(Path(name), mould, SimpleNamespace(freezing=870.0), history, {"fill_time": (np.full(n, 0.15), "s")}, [], [])
+            page, numbers = json.loads((Path(name) / "report.json").read_text()), (Path(name) / "report.bin").read_bytes()
+        self.assertEqual(sum(length for _, length in page["parts"].values()), len(numbers))
+        start, length = page["parts"]["state"]
+        states = np.frombuffer(numbers[start:start + length], np.uint8).reshape(3, n)
+        self.assertEqual([states[0].max(), states[1].min() > 0], [0, True])
+        start, length = page["parts"]["velocity"]
+        velocity = np.frombuffer(numbers[start:start + length], np.uint8).reshape(3, 3, n)
+        self.assertEqual((set(velocity[:, 0].ravel()), set(velocity[:, 2].ravel())), ({128}, {255}))
+
+    def test_places_that_a_foundry_looks_at_are_told_and_marked(self):
+        """A row of five cubes filled from both ends: fronts meet in the middle, cold."""
+        cubes = Cubes(np.zeros(3), 0.01, np.array([[i, 0, 0] for i in range(5)]))
+        mould = SimpleNamespace(cavity=SimpleNamespace(cubes=cubes, body=np.zeros(5), faces=np.arange(5)), material={"liquidus": 886.0},
+                                vents=np.array([2]), leak=np.array([2]))
+        history = SimpleNamespace(fill_time=np.array([1.0, 2, 3, 2, 1]), arrival=np.array([950.0, 900, 870, 900, 950]), metal=np.ones(5),
+                                  front_velocity=np.array([[1.0, 0, 0], [1, 0, 0], [0, 0, 0], [-1, 0, 0], [-1, 0, 0]]))
+        places = places_of(mould, history)
+        self.assertEqual([place["kind"] for place in places], ["misrun", "cold_shut"])
+        self.assertIn("below the liquidus: cold shut", places[1]["text"])
+        self.assertEqual(np.round(places[1]["at"], 6).tolist(), [0.025, 0.005, 0.005])
 
 
 class Moments(unittest.TestCase):

@@ -30,7 +30,8 @@ using results::Json;
 
 namespace {
 
-constexpr std::size_t k_most_rows = 5000;  ///< of a table
+constexpr std::size_t k_most_rows = 5000;             ///< of a table
+constexpr std::uintmax_t k_most_filling = 8'000'000;  ///< bytes of the files of a filling
 
 std::string text_at(const Value& table, std::string_view section, std::string_view key) {
   const Value* inner = section.empty() ? &table : table.find(section);
@@ -278,6 +279,22 @@ void add_fields(Json& out, const fs::path& folder, const std::vector<BodyMateria
   out.add("fields", fields_data(moments));
 }
 
+/// How the mould was filled, where the run began with it: the files that the driver of the flow has made for
+/// the page (python/solidus_plots/filling_view.py). What they say is checked by the page, which has bytes
+/// only.
+void add_filling(Json& out, const fs::path& folder, Blocks& blocks, std::vector<std::string>& notes) {
+  const fs::path text = folder / "report.json", numbers = folder / "report.bin";
+  if (!fs::exists(text) || !fs::exists(numbers)) return;
+  // The driver keeps them small; files of another origin must not make the page large.
+  std::error_code error;
+  if (fs::file_size(text, error) + fs::file_size(numbers, error) > k_most_filling || error) {
+    notes.emplace_back("The files of the filling are too large for a page, which lacks it.");
+    return;
+  }
+  out.add("filling_text", checked_summary(text));
+  out.add("filling", blocks.add(read_text_file(numbers, {numbers.string(), 0, 0})));
+}
+
 }  // namespace
 
 std::vector<BodyMaterial> body_materials(const fs::path& folder) {
@@ -325,6 +342,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   if (const fs::path ranks = whole.parent_path() / "uncertain.json";
       whole.filename() == "best" && fs::exists(ranks))
     out.add("uncertain_text", checked_summary(ranks));
+  add_filling(out, folder / "filling", blocks, own);
   out.add("materials", run.materials);
   // Tables with at most so many rows, and the fields as far as there is room.
   Json tables;

@@ -332,6 +332,25 @@ TEST_F(Report, RefusesWhatIsNoFolderOfResults) {
   refuses("fields_00001.vtu");
 }
 
+TEST_F(Report, HoldsTheFillingWhereItsFilesAre) {
+  write_run();
+  const std::string bytes = "0123456789";
+  EXPECT_TRUE(write().notes.empty());
+  EXPECT_THAT(test::read_text(page), Not(HasSubstr(packed_text(bytes))));
+  fs::create_directories(folder.path / "filling");
+  std::ofstream(folder.path / "filling/report.json") << R"({"cubes": 4})";
+  std::ofstream(folder.path / "filling/report.bin") << bytes;
+  // The bytes are a block of their own, in base64 as any other.
+  EXPECT_TRUE(write().notes.empty());
+  EXPECT_THAT(test::read_text(page), HasSubstr(packed_text(bytes)));
+  EXPECT_THAT(meta(), HasSubstr("filling_text"));
+  // Files of another origin are told, and do not make the page large.
+  std::ofstream(folder.path / "filling/report.bin") << std::string(9'000'000, 'x');
+  const WrittenReport large = write();
+  ASSERT_EQ(large.notes.size(), 1U);
+  EXPECT_THAT(large.notes[0], HasSubstr("too large for a page"));
+}
+
 TEST(RunFolder, TakesAwayTheReportOfTheRunBefore) {
   const test::SharedFolder folder;
   { const results::RunFolder run(folder.path, "title = \"x\"\n"); }

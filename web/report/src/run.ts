@@ -42,6 +42,9 @@ interface RunMeta {
   case_text: string;
   summary_text?: string;
   uncertain_text?: string;
+  filling_text?: string;
+  /** Block of the bytes of the filling. */
+  filling?: number;
   materials: { body: string; material: string; card?: Card; missing?: string }[];
   tables: Record<string, TableMeta>;
   mesh?: { dimension: number; bodies: BodyMeta[] };

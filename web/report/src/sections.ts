@@ -2,6 +2,7 @@
 import { byId, h, save, svg, table } from "./dom";
 import { chart, Line } from "./charts";
 import { duration, labelOf, PERCENT, short, Unit, unitOfValue, unitText, withUnit } from "./quantities";
+import { fillingSection } from "./filling";
 import { criterion, errorText, final, triesText } from "./head";
 import type { Answer, Page, Run } from "./run";
 import type { Workbench } from "./workbench";
@@ -28,6 +29,7 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
     out.push([id, title]);
   };
   if (page.runs.length > 1) add("comparison", "Comparison", [comparison(page)]);
+  add("filling", "Filling", page.runs.some((r) => r.meta.filling_text) ? [perRun(page, fillingSection)] : []);
   add("curves", "Curves", curves(page));
   add("castings", "Castings", page.runs.some((r) => Object.keys(r.summary.answers?.castings ?? {}).length > 1) ? [perRun(page, (r, i) => castings(r, i, bench))] : []);
   add("uncertain", "What the data add", page.runs.some((r) => r.uncertain?.answers?.length) ? [perRun(page, (r) => uncertain(r))] : []);
