@@ -20,15 +20,15 @@ class Case(Section):
     """A case of Solidus.
 
     Keys are attributes with completion, ``case.time.step``, and items by path, ``case["body.casting.material"]``; both can be
-    assigned. An unknown key or a value of the wrong kind raises :class:`InputError` at once; units, groups of the mesh and
-    what several keys say together are checked by the program's own readers in :meth:`check` and before a run.
+    assigned. An unknown key or a value of the wrong kind raises :class:`InputError` at once; units, groups of the mesh
+    and the agreement of several keys are checked by the program itself in :meth:`check` and before a run.
 
     Parameters
     ----------
     document:
-        Keys and sections as in a case file; none: an empty case to be filled.
+        Keys and sections as in a case file; by default an empty case.
     folder:
-        The folder which relative paths in it (meshes, materials) are seen from; the present one by default.
+        The folder to which relative paths (of meshes and materials) refer; the current one by default.
 
     Examples
     --------
@@ -83,11 +83,11 @@ class Case(Section):
 
     @property
     def folder(self) -> Path:
-        """The folder which relative paths are seen from."""
+        """The folder to which relative paths refer."""
         return self._folder
 
     def copy(self, changes: Mapping[str, Any] | None = None) -> "Case":
-        """A case of its own with some keys changed: ``case.copy({"time.step": "1 s"})``."""
+        """An independent copy with some keys changed: ``case.copy({"time.step": "1 s"})``."""
         other = Case(folder=self._folder)
         other.given().update(copy.deepcopy(self.given()))
         other._set(file=self._file, variant=self._variant, loaded=copy.deepcopy(self._loaded))
@@ -102,17 +102,17 @@ class Case(Section):
         return self.copy()
 
     def to_dict(self) -> Document:
-        """What the case gives, as plain dictionaries, lists, texts and numbers."""
+        """The keys given in the case, as plain dictionaries, lists, strings and numbers."""
         return plain(self)
 
     def to_toml(self) -> str:
-        """What the case gives, as the text of a case file. Comments of the file it came from are not kept."""
+        """The keys given in the case, as the text of a case file. Comments of the original file are not kept."""
         return document_text(self.to_dict())
 
     def save(self, path: str | Path) -> Path:
         """Writes the case to a file, or as ``case.toml`` into a folder, and returns the file.
 
-        In another folder than before, relative paths of meshes and materials become absolute.
+        Relative paths of meshes and materials become absolute if the folder changes.
         """
         file = Path(path).absolute()
         if file.is_dir() or not file.suffix:
@@ -128,11 +128,11 @@ class Case(Section):
         return file
 
     def explain(self, key: str = "") -> str:
-        """What a key means, its unit, default and range; without a key, all of them."""
+        """The meaning of a key, its unit, default and range; without a key, of all keys."""
         return verbs.cached("explain", *([key] if key else []))
 
     def resolved(self) -> Document:
-        """The whole case as the program understands it: includes laid over each other, defaults filled in, paths absolute.
+        """The complete case as the program reads it: with includes merged, defaults filled in and absolute paths.
 
         Raises :class:`InputError`. The mesh is not read; :meth:`check` reads it.
         """
@@ -142,9 +142,10 @@ class Case(Section):
         return copy.deepcopy(self._cache)
 
     def check(self, *, physics: str | None = None) -> str:
-        """Everything but solving: keys, materials, mesh, groups, probes. Returns what the program understood the case to be.
+        """Checks everything without solving: keys, materials, mesh, groups, probes. Returns the program's description
+        of the case.
 
-        Raises :class:`InputError` for the first thing wrong, with its place, what was found and what is allowed.
+        Raises :class:`InputError` for the first error, with its place, the value found and the values allowed.
         """
         with self.as_arguments() as arguments:
             return verbs.call("check", *arguments, *physics_option(physics))
@@ -156,10 +157,10 @@ class Case(Section):
 
     @contextlib.contextmanager
     def as_arguments(self) -> Iterator[list[str]]:
-        """The words with which a verb of the program is given this case.
+        """The command-line arguments that pass this case to a verb of the program.
 
-        Where the case is a file with some keys changed these are its name and ``--set``, so that errors name the file and
-        its lines; else a file with the whole case, which exists as long as the context.
+        For a case file with some keys changed these are its name and ``--set``, so that errors name the file and its
+        lines; otherwise a temporary file with the whole case, which exists within the context.
         """
         changes = self._assignments()
         if changes is not None:

@@ -36,18 +36,18 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     case:
         A :class:`Case`, a case file or a folder with a ``case.toml``, or a variant of either, ``"CASE:VARIANT"``.
     output:
-        Folder of the results; by default that of the program, ``results/CASE/VARIANT``, where the case is a file. A case
-        that was made in Python and is in no file needs one.
+        Folder of the results; for a case file by default ``results/CASE/VARIANT``, as in the program. For a case made
+        in Python it must be given.
     restart:
-        Go on from the checkpoint in that folder.
+        Continue from the checkpoint in that folder.
     processes:
-        ``None``: as many as pay for the case and find a core that is free, as ``solidus run`` takes.
+        ``None``: chosen from the size of the case and the free cores, as in ``solidus run``.
     physics:
-        ``"heat"`` or ``"thermomechanical"``, in place of what the case says.
+        ``"heat"`` or ``"thermomechanical"``, instead of the key of the case.
     progress:
         Called with a :class:`Progress` after every step. An exception from it stops the run and is passed on.
     sure:
-        Run it twice more, with longer steps and with larger elements, for the errors of the answers.
+        Run twice more, with longer steps and with larger elements, for the error estimates of the results.
     stop:
         An event that another thread sets to stop the run after a whole step, as Ctrl-C does.
     options:
@@ -59,11 +59,11 @@ def run(case: Case | str | Path, output: str | Path | None = None, *, restart: b
     Raises
     ------
     InputError
-        What the case has wrong.
+        The case has an error.
     RunStopped
-        The physics could not go on; ``error.results`` holds what was computed.
+        No further step could be solved; ``error.results`` has the results so far.
     ProgramMissing
-        There is no program, or no ``mpirun`` for several processes.
+        The program, or ``mpirun`` for several processes, was not found.
     RunInterrupted
         A ``KeyboardInterrupt``: Ctrl-C, or `stop`, after a whole step. A second Ctrl-C ends the run at once.
     """

@@ -21,7 +21,7 @@ _STATE = 19  # numbers of a point's history
 
 
 def celsius(temperature: Any) -> Any:
-    """Degrees Celsius in kelvin, as all functions here take temperatures."""
+    """Converts degrees Celsius to kelvin, the unit of temperature of all functions here."""
     return np.asarray(temperature, float) + ZERO_CELSIUS if np.ndim(temperature) else float(temperature) + ZERO_CELSIUS
 
 
@@ -34,7 +34,7 @@ class Property:
     name, unit:
         As in the material file, and the unit of the values (SI).
     source, valid:
-        Where the numbers come from, and the range of temperatures that is stated [K], or ``None``.
+        Source of the numbers, and their stated temperature range [K], or ``None``.
     """
 
     name: str
@@ -49,7 +49,7 @@ class Property:
 
     @property
     def points(self) -> tuple[np.ndarray, np.ndarray]:
-        """The points of its table: temperatures [K] and values; between them it is linear. Of a constant one."""
+        """The points of its table: temperatures [K] and values, linear between them. A constant has one point."""
         points = self._material.points(self.name)
         return np.array(points["x"]), np.array(points["y"])
 
@@ -79,7 +79,7 @@ class Material(Mapping[str, Property]):
 
     @property
     def title(self) -> str:
-        """What it is, in one line."""
+        """Description in one line."""
         return self._core.title
 
     @property
@@ -142,20 +142,20 @@ class Material(Mapping[str, Property]):
         return self._at(self._core.temperature, enthalpy)
 
     def changed(self, changes: Mapping[str, Any]) -> "Material":
-        """A material like this one with other values: ``m.changed({"plasticity.flow_stress": "80 MPa"})``.
+        """A copy of this material with other values: ``m.changed({"plasticity.flow_stress": "80 MPa"})``.
 
-        Keys are paths of a material file, values what it would say: a quantity with its unit, or a table. Raises
+        Keys are paths of a material file, values as in the file: a quantity with its unit, or a table. Raises
         :class:`InputError` as for a file.
         """
         return Material(self._reference, {**self._changes, **copy.deepcopy(dict(changes))})
 
     def tension(self, strain: Any, temperature: float = _ROOM, rate: float = 1e-3) -> np.ndarray:
-        """The stress of a bar that is drawn at a constant temperature.
+        """The stress of a bar in a tensile test at constant temperature.
 
         Parameters
         ----------
         strain:
-            Axial strains one after the other, from the bar at rest; they may go back (a cycle).
+            Successive axial strains, from the undeformed bar; they may decrease (a cycle).
         temperature:
             [K]
         rate:
@@ -166,7 +166,7 @@ class Material(Mapping[str, Property]):
         return self.draw(strain, temperature, rate)["stress"]
 
     def draw(self, strain: Any, temperature: float = _ROOM, rate: float = 1e-3) -> dict[str, np.ndarray]:
-        """As :meth:`tension`, with lateral strain and equivalent plastic strain besides the stress."""
+        """As :meth:`tension`, but returns lateral strain and equivalent plastic strain in addition to the stress."""
         given = np.atleast_1d(np.asarray(strain, float))
         path = np.concatenate([[0.0], given])
         steps = np.abs(np.diff(path))
@@ -209,14 +209,14 @@ def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
 class State:
     """The history of points; every array is [point] or [point][component], components xx, yy, zz, xy, yz, xz.
 
-    The members are views of :attr:`values`, which holds all of it.
+    The members are views of :attr:`values`, the array of all of them.
     """
 
     values: np.ndarray
 
     @classmethod
     def at_rest(cls, points: int) -> "State":
-        """Points that nothing has happened to."""
+        """The initial state, without plastic strain."""
         return cls(np.zeros((points, _STATE)))
 
     @property
@@ -239,7 +239,7 @@ class State:
 
 @dataclass
 class Update:
-    """What the law answers: stress [Pa], state, where asked for the consistent tangent [point][6][6] [Pa], dissipation [W/m³],
+    """Result of a law: stress [Pa], state, on request the consistent tangent [point][6][6] [Pa], dissipation [W/m³],
     solid fraction, and whether each point converged."""
 
     stress: np.ndarray
@@ -258,7 +258,7 @@ class Law:
     material:
         A :class:`Material`, or its name.
     reference_temperature:
-        Where thermal strain is zero [K].
+        Temperature of zero thermal strain [K].
     """
 
     def __init__(self, material_: Material | str, reference_temperature: float = _ROOM) -> None:
@@ -273,13 +273,13 @@ class Law:
         strain:
             Total strain at its end [point][6]: xx, yy, zz, xy, yz, xz, tensor components (xy is half the engineering strain).
         temperature:
-            At its end, one for all or [point] [K].
+            At its end, a number or [point] [K].
         dt:
             The step [s].
         state:
             At its start; none: at rest.
         tangent:
-            Compute ∂σ/∂ε too; its shear columns act on engineering strains.
+            Also compute ∂σ/∂ε; its shear columns act on engineering strains.
         """
         strain = np.atleast_2d(np.asarray(strain, float))
         if strain.ndim != 2 or strain.shape[1] != 6:

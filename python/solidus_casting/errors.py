@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 class SolidusError(Exception):
-    """Everything that this package raises of its own accord."""
+    """Base class of all exceptions of this package."""
 
 
 class InputError(SolidusError, ValueError):
@@ -20,13 +20,13 @@ class InputError(SolidusError, ValueError):
     Attributes
     ----------
     file, line, column:
-        The place, as far as it is known, else ``None``. Of a key that was changed in Python there is no file.
+        The place, as far as it is known, otherwise ``None``. For a key changed in Python there is no file.
     key:
-        The path of a key that was changed in Python, for example ``"time.step"``, else ``None``.
+        The path of a key changed in Python, for example ``"time.step"``, otherwise ``None``.
     found:
-        What is there, one sentence.
+        The value found, in one sentence.
     allowed:
-        What would be accepted, with the nearest name where there is one; may be empty.
+        The accepted values, with the most similar name where there is one; may be empty.
     """
 
     def __init__(self, found: str, allowed: str = "", *, file: Path | None = None, line: int | None = None,
@@ -66,9 +66,9 @@ def _behind_assignment(line: str) -> str | None:
 
 
 class RunStopped(SolidusError, RuntimeError):
-    """The physics of a run could not go on; what was computed until then is there.
+    """No further step of a run could be solved; the results until then are available.
 
-    ``results`` holds it (:class:`Results`), ``reason`` the text with place, checkpoint and advice.
+    ``results`` are these results (:class:`Results`), ``reason`` is the message with place, checkpoint and advice.
     """
 
     def __init__(self, reason: str, results: object = None) -> None:
@@ -77,7 +77,8 @@ class RunStopped(SolidusError, RuntimeError):
 
 
 class RunInterrupted(KeyboardInterrupt):
-    """A run was stopped by Ctrl-C after a whole step; ``results`` holds what was computed. Go on with ``restart=True``."""
+    """A run was stopped by Ctrl-C after a whole step; ``results`` are those until then. Continue with
+    ``restart=True``."""
 
     def __init__(self, reason: str = "", results: object = None) -> None:
         super().__init__(reason)
@@ -85,8 +86,8 @@ class RunInterrupted(KeyboardInterrupt):
 
 
 class InternalError(SolidusError, RuntimeError):
-    """A mistake in Solidus; please report it."""
+    """An error in Solidus itself; please report it."""
 
 
 class ProgramMissing(SolidusError, RuntimeError):
-    """The program ``solidus`` or the compiled part of this package is not where it was looked for."""
+    """The program ``solidus`` or the compiled part of this package was not found."""

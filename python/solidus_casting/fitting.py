@@ -23,22 +23,22 @@ PARAMETERS = {
 
 def fit_hardening(kind: str, strain: Any, stress: Any, base: Material, temperature: float, start: Mapping[str, float],
                   rate: float = 1e-3) -> dict[str, float]:
-    """Finds the parameters with which a bar of the material, drawn as in a tensile test, has the stresses measured.
+    """Finds the parameters with which a tensile test of the material has the measured stresses.
 
     Parameters
     ----------
     kind:
         ``"linear"``, ``"saturation"`` (Voce) or ``"power"`` (Swift).
     strain, stress:
-        Of the test: total axial strain, rising, and true stress [Pa].
+        Of the test: total axial strain, increasing, and true stress [Pa].
     base:
-        The material whose elasticity and rate dependence hold.
+        The material with the elasticity and the rate dependence.
     temperature, rate:
         Of the test [K], [1/s].
     start:
-        First guesses of the parameters to be found, in SI: of those in :data:`PARAMETERS`.
+        Initial values of the parameters to be found, in SI units, by their names in :data:`PARAMETERS`.
 
-    Returns the parameters in SI, and under ``"error"`` the root mean square of what the stresses miss [Pa].
+    Returns the parameters in SI units, and under ``"error"`` the root mean square error of the stresses [Pa].
     """
     if kind not in PARAMETERS:
         raise ValueError(f"there is no hardening {kind!r} to fit; one of: {', '.join(PARAMETERS)}")

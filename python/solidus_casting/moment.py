@@ -27,8 +27,8 @@ class Place:
 class Moment(Mapping[str, np.ndarray]):
     """Fields at one time: ``moment["temperature"]`` is an array, [node] or [element] and, of vectors and tensors, [component].
 
-    Arrays are in SI, read when they are asked for, and kept; of a run on one process they are views of what was unpacked from
-    the file, without a copy.
+    Arrays are in SI units, read on first use, and kept; for a run on one process they are views of the unpacked file,
+    without a copy.
     """
 
     def __init__(self, grid: Grid, bodies: list[str] | None = None, file: Path | None = None) -> None:
@@ -57,12 +57,12 @@ class Moment(Mapping[str, np.ndarray]):
 
     @property
     def cells(self) -> dict[str, np.ndarray]:
-        """Nodes of the elements by their shape: ``moment.cells["tri3"]`` is [element][node]."""
+        """Node numbers of the elements by shape: ``moment.cells["tri3"]`` is [element][node]."""
         return {element.name: self._grid.cells(number)[1] for number, element in ELEMENTS.items()
                 if np.any(self._grid.cell_types == number)}
 
     def deformed(self, scale: float = 1.0) -> np.ndarray:
-        """Coordinates of the nodes with the displacement times a factor [node][3] [m]."""
+        """Coordinates of the nodes plus the displacement multiplied by a factor [node][3] [m]."""
         return self.points + scale * self["displacement"] if "displacement" in self else self.points
 
     # The fields
@@ -86,7 +86,7 @@ class Moment(Mapping[str, np.ndarray]):
         return self._arrays[name]
 
     def unit(self, name: str) -> str:
-        """Unit of a field, ``"1"`` of mere numbers."""
+        """Unit of a field, ``"1"`` if dimensionless."""
         self.location(name)
         return self._grid.units.get(name, "1")
 
@@ -107,7 +107,7 @@ class Moment(Mapping[str, np.ndarray]):
     # Probes
 
     def place(self, point: Any, body: str | None = None) -> Place:
-        """The element that holds a point of the undeformed bodies.
+        """The element that contains a point of the undeformed bodies.
 
         Parameters
         ----------

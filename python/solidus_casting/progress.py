@@ -12,9 +12,9 @@ class Progress:
     Attributes
     ----------
     time, end, step:
-        How far the run has come, where it ends (``None`` where the case does not say), and the size of the step [s].
+        Present time, end of the run (``None`` where the case has none), and size of the step [s].
     number:
-        Of the step, from one.
+        Number of the step, from one.
     row:
         The whole row of ``steps.csv``, by header.
     """
@@ -27,5 +27,5 @@ class Progress:
 
     @property
     def fraction(self) -> float | None:
-        """How much of the time is done, from 0 to 1."""
+        """Computed fraction of the time, from 0 to 1."""
         return None if not self.end else min(1.0, self.time / self.end)

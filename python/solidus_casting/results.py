@@ -25,8 +25,8 @@ _LARGEST_PLACES = 64  # of probes, kept for further fields
 class Results(Sequence[Moment]):
     """The results of a run: tables, fields over time and the summary.
 
-    A sequence of :class:`Moment`: ``results[-1]`` is the last one, ``results.at(60)`` that at 60 s. The folder may be that of a
-    run that is still going on; :meth:`reload` looks again.
+    A sequence of :class:`Moment`: ``results[-1]`` is the last one, ``results.at(60)`` that at 60 s. The folder may be
+    that of a run in progress; :meth:`reload` reads it again.
 
     Examples
     --------
@@ -45,7 +45,7 @@ class Results(Sequence[Moment]):
         self.reload()
 
     def reload(self) -> None:
-        """Forgets what was read, so that a run that goes on is seen as it is now."""
+        """Discards the data read so far, so that the present state of a run in progress is read."""
         for name in ("history", "steps", "summary", "case", "_collection", "_bodies"):
             self.__dict__.pop(name, None)
         self._moments: dict[Path, Moment] = {}
@@ -55,12 +55,12 @@ class Results(Sequence[Moment]):
 
     @functools.cached_property
     def history(self) -> Table:
-        """``history.csv``: probes, contact and heat balance, a row a step."""
+        """``history.csv``: probes, contact and heat balance, one row per step."""
         return Table.read(self.folder / "history.csv")
 
     @functools.cached_property
     def steps(self) -> Table:
-        """``steps.csv``: every step, its size and why, iterations, residuals."""
+        """``steps.csv``: every step, its size and the reason for it, iterations, residuals."""
         return Table.read(self.folder / "steps.csv")
 
     @property
@@ -74,36 +74,35 @@ class Results(Sequence[Moment]):
 
     @property
     def tables(self) -> list[str]:
-        """Names of the tables that are there."""
+        """Names of the existing tables."""
         return sorted(file.stem for file in self.folder.glob("*.csv"))
 
     # The summary
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
-        """``summary.json``: how it ended, sizes, times, warnings, answers. Empty while the run goes on."""
+        """``summary.json``: how the run ended, sizes, times, warnings, answers. Empty during the run."""
         file = self.folder / "summary.json"
         return json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
 
     @property
     def answers(self) -> dict[str, Any]:
-        """What the run answers to the engineer."""
+        """The answers of the run for the engineer: freezing time, gap, distortion and others, with their errors."""
         return self.summary.get("answers", {})
 
     @property
     def criteria(self) -> dict[str, Any]:
-        """The least and the largest value of every criterion and where; the units are in the names."""
+        """The minimum and maximum of every criterion with their places; the units are in the names."""
         return self.summary.get("criteria", {})
 
     @property
     def fields(self) -> dict[str, dict[str, Any]]:
-        """What the program says of the fields that the run has written, by name: label, unit, the unit in which people read
-        it, the mark for "no value"."""
+        """Properties of the fields written by the run, by name: label, unit, display unit, marker for "no value"."""
         return self.summary.get("fields", {})
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings that the run gave."""
+        """Warnings of the run."""
         return self.summary.get("warnings", [])
 
     @property
@@ -113,7 +112,7 @@ class Results(Sequence[Moment]):
 
     @functools.cached_property
     def case(self) -> Case:
-        """The case as it was run, every default filled in; it can be changed and run again."""
+        """The case of the run, with every default filled in; it can be changed and run again."""
         return Case.load(self.folder / "case.toml")
 
     # Fields
@@ -149,7 +148,7 @@ class Results(Sequence[Moment]):
 
     @property
     def surfaces(self) -> list[str]:
-        """Names of the contact surfaces that have fields of their own."""
+        """Names of the contact surfaces with fields."""
         return [name for name in self._collection if name]
 
     def surface(self, name: str, index: int = -1) -> Moment:
@@ -178,7 +177,7 @@ class Results(Sequence[Moment]):
         return (self[index] for index in range(len(self)))
 
     def at(self, time: float, nearest: bool = False) -> Moment:
-        """The moment at a time [s]; with `nearest` the one that comes closest to it."""
+        """The moment at a time [s]; with `nearest` the closest one."""
         times = self.times
         if not times.size:
             raise SolidusError(f"{self.folder}: no fields were written yet")
@@ -192,8 +191,9 @@ class Results(Sequence[Moment]):
     def probe(self, field: str, point: Any, body: str | None = None) -> np.ndarray:
         """A field at a point over :attr:`times`: [time], of vectors and tensors [time][component].
 
-        Fields of nodes are interpolated with the shape functions of the element, those of elements taken from it. ``point`` has
-        two or three coordinates of the undeformed bodies [m]; of an array of points the answer is [time][point].
+        Nodal fields are interpolated with the shape functions of the element, element fields are constant in it.
+        ``point`` has two or three coordinates in the undeformed bodies [m]; for an array of points the result is
+        [time][point].
         """
         given = np.asarray(point, float)
         if given.ndim == 2:

@@ -20,12 +20,12 @@ from .toml_text import value_text
 
 
 class Step(dict):
-    """A step as it was taken: a dictionary whose keys are attributes too.
+    """A computed step: a dictionary whose keys are also attributes.
 
-    ``number``, ``time`` and ``step`` (its size) [s], ``reason`` for the size, ``rejected`` tries before, ``shortened``
-    ones that ended after heat alone and why the last (``rejection``), ``solid_fraction``, ``min_temperature`` and
-    ``max_temperature`` [K], ``heat`` and ``mechanics`` with iterations and residuals, ``energy`` with the first law over
-    the step [J].
+    ``number``, ``time`` and ``step`` (its size) [s], ``reason`` for the size, ``rejected`` attempts before,
+    ``shortened`` ones that ended after heat alone and the reason for the last (``rejection``), ``solid_fraction``,
+    ``min_temperature`` and ``max_temperature`` [K], ``heat`` and ``mechanics`` with iterations and residuals,
+    ``energy`` with the first law over the step [J].
     """
 
     def __getattr__(self, name: str) -> Any:
@@ -40,29 +40,30 @@ class Step(dict):
 
 
 class Simulation:
-    """A run in this process that the caller drives.
+    """A run in this process that is controlled by the caller.
 
-    :meth:`advance` takes a step and leaves it open: its fields can be read, and :meth:`repeat` takes it again, with another
-    size or after a :meth:`change` of a condition. The next :meth:`advance` makes it count; only then do tables, files and
-    criteria have it. ``for step in simulation`` advances to the end.
+    :meth:`advance` computes a step without committing it: its fields can be read, and :meth:`repeat` computes it again,
+    with another size or after a :meth:`change` of a condition. The next :meth:`advance` commits it; only then is it in
+    tables, files and criteria. ``for step in simulation`` advances to the end.
 
     Parameters
     ----------
     case:
         A :class:`Case`, a case file or a folder.
     output:
-        Folder for the results, filled as by a run of the program; none: nothing is written.
+        Folder for the results, with the same files as from the program; by default nothing is written.
     restart:
-        Go on from the checkpoint in that folder.
+        Continue from the checkpoint in that folder.
     physics:
-        ``"heat"`` or ``"thermomechanical"``, in place of what the case says.
+        ``"heat"`` or ``"thermomechanical"``, instead of the key of the case.
     trust_script:
-        Run a ``.geo`` script whatever it says.
+        Run a ``.geo`` script whatever commands it contains.
     trust_laws:
-        Load laws of materials from shared objects, here and in all later simulations of the process: their code runs as
-        a program of their author.
+        Load material laws from shared objects, in this and all later simulations of the process: this executes the code
+        of their author.
 
-    On several processes (:func:`initialize`) all of them make every call, and fields are those of the process's own part.
+    With several processes (:func:`initialize`) all of them must make every call, and fields are those of the process's
+    own part.
 
     Examples
     --------
@@ -94,12 +95,12 @@ class Simulation:
 
     @property
     def time(self) -> float:
-        """Time of the state that the fields show [s]."""
+        """Time of the present fields [s]."""
         return self._session.time
 
     @property
     def end(self) -> float | None:
-        """Where the case ends [s]; ``None`` of a steady one."""
+        """End of the case [s]; ``None`` for a steady one."""
         return self._session.end
 
     @property
@@ -109,12 +110,12 @@ class Simulation:
 
     @property
     def pending(self) -> bool:
-        """Whether the last step is still open, so that it can be repeated."""
+        """Whether the last step is not yet committed, so that it can be repeated."""
         return self._session.pending
 
     @property
     def step(self) -> Step:
-        """The last step taken."""
+        """The last step."""
         return Step(self._session.record)
 
     @property
@@ -130,33 +131,34 @@ class Simulation:
     # Going on
 
     def advance(self, step: float | None = None) -> Step | None:
-        """Takes the next step; the one before counts now. Returns it, or ``None`` after the end.
+        """Commits the previous step and computes the next one. Returns it, or ``None`` after the end.
 
-        ``step`` is the size wanted [s], cut where a time must be met; without it the case's step control decides. Steps that do
-        not go through are cut and tried again. Raises :class:`RunStopped` where no step goes through.
+        ``step`` is the wanted size [s], shortened where a time must be met; without it the case's step control decides.
+        Steps that fail are shortened and repeated. Raises :class:`RunStopped` where no step succeeds.
         """
         return self._moved(self._session.advance(step))
 
     def repeat(self, step: float | None = None) -> Step | None:
-        """Takes the last step again, perhaps of another size or after :meth:`change`."""
+        """Computes the last step again, for example with another size or after :meth:`change`."""
         return self._moved(self._session.repeat(step))
 
     def commit(self) -> None:
-        """Makes the last step count now, so that criteria and tables have it; it cannot be repeated then."""
+        """Commits the last step, so that criteria and tables include it; it cannot be repeated afterwards."""
         self._forget()
         self._session.commit()
 
     def change(self, key: str | Mapping[str, Any], value: Any = None) -> None:
-        """Changes keys of thermal or mechanical conditions for what is computed next.
+        """Changes keys of thermal or mechanical conditions for the following computation.
 
-        ``simulation.change("thermal_condition.mould.ambient", "50 degC")``, or a dictionary of such pairs. What is computed next
-        is the next step, or the last one again where :meth:`repeat` follows. Raises :class:`InputError` as for a case.
+        ``simulation.change("thermal_condition.mould.ambient", "50 degC")``, or a dictionary of such pairs. The
+        following computation is the next step, or the last one again with :meth:`repeat`. Raises :class:`InputError` as
+        for a case.
         """
         for path, content in (key.items() if isinstance(key, Mapping) else [(key, value)]):
             self._session.change(f"{path}={value_text(content)}")
 
     def run(self, until: float | None = None, progress: Callable[[Progress], Any] | None = None) -> Results | None:
-        """Goes on to the end, or to the first step that ends at `until` [s] or after it. Returns :attr:`results`.
+        """Continues to the end, or to the first step that ends at `until` [s] or later. Returns :attr:`results`.
 
         Ctrl-C stops it after a whole step with :class:`RunInterrupted`.
         """
@@ -197,9 +199,10 @@ class Simulation:
 
     @property
     def moment(self) -> Moment:
-        """The fields at the present time of the simulation, with their mesh: arrays, probes and other libraries' objects.
+        """The fields at the present time of the simulation, with their mesh: arrays, probes and objects of other
+        libraries.
 
-        It is of this state: read what you need before the simulation goes on.
+        It belongs to this state: read the data you need before the simulation continues.
         """
         if self._moment is None:
             record = self._session.record
@@ -229,7 +232,7 @@ class Simulation:
         return self.moment[field]
 
     def fields(self) -> list[str]:
-        """Names of the fields that there are, those that files only have on request too."""
+        """Names of all available fields, including those that are written to files only on request."""
         return [name for name, *_ in self._session.fields()]
 
     def probe(self, field: str, point: Any, body: str | None = None) -> Any:
@@ -241,7 +244,7 @@ class Simulation:
         return f"<Simulation {self._session.title}: t = {self.time:g} s{end}{', a step is pending' if self.pending else ''}>"
 
     def close(self) -> None:
-        """Frees its memory, and its folder for other runs. Nothing can be asked of it any more."""
+        """Frees its memory, and its folder for other runs. It cannot be used afterwards."""
         self._forget()
         self._mesh = None
         self._session = None

@@ -30,7 +30,7 @@ class Table:
 
     @classmethod
     def read(cls, file: str | Path) -> "Table":
-        """Reads a table that Solidus wrote. Half a row at the end, of a run that is going on, is left out."""
+        """Reads a table written by Solidus. An incomplete last row, of a run in progress, is left out."""
         file = Path(file)
         if not file.exists():
             raise SolidusError(f"{file}: there is no such file")
@@ -96,8 +96,8 @@ class Table:
         return array.copy() if copy else array
 
     def to_pandas(self, index: str | None = None) -> "pandas.DataFrame":
-        """The table as pandas' DataFrame, its units in ``frame.attrs["units"]``; `index` names the column of the rows. Needs
-        pandas (Debian: python3-pandas)."""
+        """The table as pandas' DataFrame, its units in ``frame.attrs["units"]``; `index` is the column used as index.
+        Needs pandas (Debian: python3-pandas)."""
         try:
             import pandas
         except ImportError as error:
