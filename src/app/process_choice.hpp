@@ -1,4 +1,4 @@
-/// On how many processes a run goes: as many as pay on this machine for this case (decision 0077).
+/// The number of processes of a run, chosen from the machine and the case (decision 0077).
 #pragma once
 
 #include <memory>
@@ -15,16 +15,15 @@ int usable_cores();
 
 /// How a run began.
 struct RunStart {
-  std::optional<ExitCode> code;  ///< how it ended, on processes that were started for it
+  std::optional<ExitCode> code;  ///< exit code, if the run was done by processes started for it
   std::shared_ptr<setup::MadeMesh>
-      mesh;  ///< else, where the run is this process's own: its mesh, if there is one
+      mesh;  ///< otherwise, if this process runs the case: its mesh, if it was made
 };
 
-/// Decides on how many processes a case runs, says so in one line, and if they are several starts them and
-/// waits for their end. Where a launcher of MPI has started this process it leaves everything as it is.
-/// Throws InputError for what the case has wrong that shows with its mesh, and for processes that were asked
-/// for and cannot be had.
-/// @param asked  by --processes; absent: by SOLIDUS_PROCESSES, and without that as many as pay
+/// Chooses the number of processes of a case, reports it in one line, and starts them and waits for their end
+/// if there are several. Does nothing if this process was started by an MPI launcher. Throws InputError for
+/// errors of the case that are found with its mesh, and if the requested processes are not available.
+/// @param asked  number given by --processes; absent: by SOLIDUS_PROCESSES, otherwise chosen
 RunStart start_run(std::optional<int> asked, const setup::Case& c, const run::RunOptions& options);
 
 }  // namespace solidus::app

@@ -1,4 +1,4 @@
-/// Case files laid over each other: variants that include a case, and `--set path=value`.
+/// Merging of case files: variants that include a case, and `--set path=value`.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace solidus::cases {
 
-/// Lays `over` on `base` (a variant that changes the `kind` of a section drops what only the old kind takes):
-/// sections merge key by key; lists of sections ([[body]]) merge by their `name`, new names are added behind;
-/// everything else (numbers, texts, lists, tables written inline) replaces what was there. Places stay those
-/// of the file a value came from.
+/// Merges `over` into `base`. Sections merge key by key; lists of sections ([[body]]) merge by their `name`,
+/// new names are appended; everything else (numbers, texts, lists, inline tables) replaces the value of
+/// `base`. If the `kind` of a section changes, keys that only the old kind has are removed. Each value keeps
+/// its place in the file it came from.
 void lay_over(Value& base, const Value& over);
 
 /// Applies "time.step=0.5 s" or "body.part.material=steel" to a case. A list of sections is addressed by name

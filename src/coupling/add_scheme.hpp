@@ -1,4 +1,4 @@
-/// Makes a coupling scheme of a struct that describes it (scheme_kind.hpp).
+/// Makes a coupling scheme from a struct that describes it (scheme_kind.hpp).
 #pragma once
 
 #include "coupling/phases.hpp"
@@ -53,7 +53,7 @@ std::shared_ptr<const SchemeKind> scheme_kind(Scheme data) {
   return kind;
 }
 
-/// Adds a scheme while the program starts, as an object at namespace scope.
+/// Registers a scheme at the start of the program, as an object at namespace scope.
 template <class Scheme>
 struct AddScheme {
   AddScheme() { schemes().add(kind_of<SchemeKind, SchemeKindOf<Scheme>>()); }

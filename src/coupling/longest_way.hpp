@@ -1,4 +1,4 @@
-/// How far the nodes may go in one iteration of Newton's method for displacement and temperature at once.
+/// Largest displacement of nodes in one Newton iteration of the simultaneous scheme.
 #pragma once
 
 #include <span>
@@ -7,10 +7,10 @@
 
 namespace solidus::coupling {
 
-/// The factor at most 1 by which a step of the displacements is shortened at the outset, so that no node goes
-/// further than a twentieth of the mesh's diagonal. A body that rested on contact alone, which the step
-/// before has opened, has next to no stiffness toward its mould: its step is metres long, and surfaces that
-/// search for their partners (large sliding) would not find each other again. Collective.
+/// The factor, at most 1, by which a Newton step of the displacements is shortened before the line search, so
+/// that no node moves farther than a twentieth of the mesh's diagonal. A body that was held by contact only,
+/// which the previous iteration has opened, has almost no stiffness towards its mould: its Newton step is
+/// metres long, and in large sliding the points would not find their partners again. Collective.
 /// @param step  [local node][component] [m]
 double factor_of_longest_way(const mesh::Mesh& mesh, std::span<const double> step, int components);
 

@@ -19,7 +19,7 @@ enum class CoupledSolverKind {
   field_split
 };
 
-/// The weights of a newton and of a watt in the norm of the residual.
+/// The weights of forces and heat flows in the norm of the residual.
 struct FieldWeights {
   double force = 1;  ///< [1/N]
   double heat = 1;   ///< [1/W]
@@ -37,9 +37,9 @@ class CoupledTangentSolver {
   virtual LinearReport solve(CoupledMatrix& a, std::span<const double> force, std::span<const double> heat,
                              FieldWeights weights, std::span<double> u, std::span<double> temperature,
                              double forcing = 0) = 0;
-  /// Those that the next solve uses where it is given these: a preconditioner that stays may keep its own.
+  /// The weights that the next solve uses instead of `weights`: a reused preconditioner may keep its own.
   virtual FieldWeights in_use(FieldWeights weights) const = 0;
-  /// Drops what the solver carries over from earlier solves, as LinearSolver::forget().
+  /// Discards the data kept from earlier solves, as LinearSolver::forget().
   virtual void forget() = 0;
   /// Resets the solver as LinearSolver::reset().
   virtual void reset() = 0;

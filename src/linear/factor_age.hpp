@@ -1,29 +1,29 @@
-/// Decides whether the factors of one tangent precondition the next one of the same Newton iteration. Near
-/// the solution contact and yield hardly change from one iteration to the next, so that a few directions of
-/// GMRES do with the factors that are there, while new ones cost as much as some thirty of them in three
-/// dimensions and ten in the plane.
+/// Decides whether the factors of one tangent are used as preconditioner for the next one of the same Newton
+/// iteration. Near the solution contact and yielding hardly change between iterations, so that a few
+/// directions of GMRES with the old factors are enough, while new factors cost as much as about thirty
+/// directions in three dimensions and ten in two.
 #pragma once
 
 namespace solidus::linear {
 
 class FactorAge {
  public:
-  /// Directions after which the factors of before are given up: half of what new ones cost.
+  /// Directions after which the old factors are given up: half of the cost of new ones.
   static constexpr int patience(int dimension) { return dimension == 3 ? 14 : 6; }
 
-  /// There are no factors, or nothing of the past shall count.
+  /// There are no factors, or they must not be used again.
   void forget() { made_ = old_ = false; }
-  /// Factors have been made for the matrix of now.
+  /// Factors have been computed for the present matrix.
   void renew() {
     made_ = true;
     old_ = false;
   }
-  /// The matrix of now is solved with factors of an earlier one.
+  /// The present matrix is solved with factors of an earlier one.
   void keep() { old_ = true; }
   /// Whether the factors are those of an earlier matrix.
   bool old() const { return old_; }
-  /// Whether they may serve the next matrix: the residual has fallen since the solve before, as it does from
-  /// iteration to iteration, while that of a new step begins higher.
+  /// Whether they may be used for the next matrix: the residual has fallen since the previous solve, as it
+  /// does between iterations, while that of a new step begins higher.
   /// @param norm  of the right-hand side, the same on every process
   bool may_serve(double norm) {
     const bool falls = norm < norm_;

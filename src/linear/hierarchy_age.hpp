@@ -1,7 +1,7 @@
-/// Decides whether a multigrid hierarchy that was made for one matrix is used for the next one too. Setting
-/// up costs as much as twenty iterations or more: it is made again where the matrix has become several times
-/// stiffer at some node (stiffness_growth.hpp), or where a solve takes half as many iterations again for a
-/// digit as the first one with it, and a few more.
+/// Decides whether a multigrid hierarchy made for one matrix is used for the next one too. The setup costs as
+/// much as twenty iterations or more: it is repeated if the matrix has become several times stiffer at some
+/// node (stiffness_growth.hpp), or if a solve takes 1.5 times as many iterations per digit as the first one
+/// with this hierarchy, and a few more.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace solidus::linear {
 
 class HierarchyAge {
  public:
-  /// The next solve needs a new one.
+  /// Whether the next solve needs a new one.
   bool stale() const { return stale_; }
   void renew() { stale_ = true; }
   /// Whether a solve with this matrix needs a new one. Collective.
@@ -25,8 +25,8 @@ class HierarchyAge {
   }
   /// One has been made for this matrix.
   void made_for(BlockMatrix& a) { growth_.remember(a); }
-  /// After a solve with it. Tolerances differ from solve to solve: what counts are iterations for each digit.
-  /// @param reduction  of the residual that was asked for
+  /// After a solve with it. Since tolerances differ, iterations are counted per digit of reduction.
+  /// @param reduction  requested reduction of the residual
   void judge(const LinearReport& report, double reduction) {
     constexpr double k_slower = 0.5, k_more_iterations = 4;
     const double digits = std::max(0.1, -std::log10(reduction));
@@ -39,7 +39,7 @@ class HierarchyAge {
  private:
   bool stale_ = true;
   StiffnessGrowth growth_;
-  double first_rate_ = 0;  ///< iterations for each digit with a new hierarchy
+  double first_rate_ = 0;  ///< iterations per digit with a new hierarchy
 };
 
 }  // namespace solidus::linear

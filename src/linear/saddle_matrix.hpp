@@ -1,11 +1,11 @@
-/// The saddle point of nodal displacements u and nodal pressures p, in block rows:
+/// The saddle-point matrix of nodal displacements u and nodal pressures p, in block rows:
 ///
-///   ⎡ A   B ⎤ ⎧u⎫       A  displacement matrix (block_matrix.hpp), by half where it is symmetric
+///   ⎡ A   B ⎤ ⎧u⎫       A  displacement matrix (block_matrix.hpp), only its upper half where it is symmetric
 ///   ⎣ Bᵀ −C ⎦ ⎩p⎭       B  gradient of the pressure, C  compliance and stabilisation
 ///
-/// A node has `components` displacements and `fields` pressures. The pressure's part of a pair of nodes is
+/// A node has `components` displacements and `fields` pressures. The pressure entries of a pair of nodes are
 /// stored as one border per slot of A, so that both fields share a pattern and a product needs no copy in
-/// another format. Where A is kept by half, the border of a slot is also its mirror image.
+/// another format. Where only half of A is stored, the border of a slot includes that of the transposed slot.
 #pragma once
 
 #include <span>
@@ -28,7 +28,7 @@ class SaddleMatrix {
   BlockMatrix& displacement() { return displacement_; }
   const BlockMatrix& displacement() const { return displacement_; }
 
-  /// Sets the borders to zero and leaves A as it is. Returns true where A has another pattern than before.
+  /// Sets the borders to zero and leaves A as it is. Returns true if the pattern of A has changed.
   bool set_zero();
   /// The border of a pair (row node, column node): ∂r_u/∂p [component][field], then ∂r_p/∂u
   /// [field][component], then ∂r_p/∂p [field][field], which is −C. Slots are those of A, also the one without

@@ -1,5 +1,5 @@
-/// Products with symmetric matrices of which only the blocks on and above the diagonal are there: they read
-/// half of the memory, and memory traffic bounds their speed.
+/// Products with symmetric matrices of which only the blocks on and above the diagonal are stored: they read
+/// half of the memory, and memory traffic limits their speed.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace solidus::multigrid {
 
 /// y = A x
-/// @param size    of the blocks, one with_block_sizes() knows
-/// @param start   of the block rows, each beginning with its diagonal; columns rise, those of other processes
-/// last
-/// @param blocks  [slot][row][column]; readable for seven numbers behind the last
+/// @param size    block size, one of those of with_block_sizes()
+/// @param start   first slot of each block row, which begins with its diagonal; columns are sorted, those of
+/// other processes last
+/// @param blocks  [slot][row][column]; seven numbers after the last must be readable
 /// @param x       [local block row][size]
 /// @param y       [block row][size]
 /// @param scratch kept from call to call

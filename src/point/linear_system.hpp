@@ -1,4 +1,4 @@
-/// A linear system of at most six equations, by elimination with row exchange.
+/// A linear system of at most six equations, by Gaussian elimination with partial pivoting.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace solidus::point {
 using Matrix6 = std::array<std::array<double, 6>, 6>;
 using Vector6 = std::array<double, 6>;
 
-/// Solves the leading n×n system; false when it is singular, then x holds nothing of use.
+/// Solves the leading n×n system; returns false if it is singular, x is then undefined.
 inline bool solve(Matrix6 a, Vector6 b, std::size_t n, Vector6& x) {
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t pivot = k;

@@ -7,9 +7,9 @@
 ///     static void keys(Section<Bedding>& s) { s.quantity("bedding_pressure", &Bedding::pressure, "Pa")…; }
 ///     template <class T> T conductance(const T& pressure) const;
 ///   };
-///   const AddContactLaw<Bedding> k_bedding;   // at namespace scope: the key contact_law knows "bedding"
+///   const AddContactLaw<Bedding> k_bedding;   // at namespace scope: adds "bedding" to the key
 ///
-/// Optional members, besides those of laws/conductance.hpp:
+/// Optional members, in addition to those of laws/conductance.hpp:
 ///
 ///   static constexpr bool beside_gas = false;  // or a function: h is all of it. Absent: it adds to what a
 ///   gap
@@ -39,21 +39,21 @@ struct Separation {
 
 class ContactLaw : public ConductanceLaw {
  public:
-  /// The gas of the gap conducts as well.
+  /// Whether its conductance is added to that of the gas in the gap.
   virtual bool beside_gas() const = 0;
   virtual std::optional<double> without_pressure() const = 0;
   virtual bool rough() const = 0;  ///< it has a separation
   virtual Separation separation(double pressure) const = 0;
-  /// s of HeatTransferSpec::slave_resistance where the law says it, else nothing.
+  /// s of HeatTransferSpec::slave_resistance if the law determines it, otherwise nothing.
   virtual std::optional<double> slave_resistance(double pressure, double temperature) const = 0;
-  /// The law with slave and master exchanged; null: it does not tell them apart.
+  /// The law with slave and master exchanged; null: the law is symmetric.
   virtual std::shared_ptr<const ContactLaw> swapped() const = 0;
-  /// Whether it conducts by the bodies' own mean conductivity, and the law with that: k̄ [W/(m K)] of the
-  /// temperature [K].
+  /// Whether the law depends on the mean conductivity of the bodies, and the law with this mean: k̄ [W/(m K)]
+  /// of the temperature [K].
   virtual bool needs_conductivity() const = 0;
   virtual std::shared_ptr<const ContactLaw> with_conductivity(Table mean) const = 0;
-  /// The law ready for use. Throws InputError where its numbers make none.
-  /// @param gas_fills_roughness  the law of the gap does
+  /// The law ready for use. Throws InputError for parameters that are not valid.
+  /// @param gas_fills_roughness  the law of the gap includes the gas in the roughness
   /// @param tables               of [[contact.heat.at]]
   virtual std::shared_ptr<const ContactLaw> ready(bool gas_fills_roughness, std::vector<TableAt> tables,
                                                   const SourceLocation& where) const = 0;
@@ -127,7 +127,7 @@ class ContactLawOf final : public ConductanceLawOf<ContactLaw, Law> {
   static constexpr bool k_rough = requires(const Law law) { law.separation(1.0); };
 };
 
-/// A law with its numbers, for HeatTransferSpec.
+/// A law with its parameters, for HeatTransferSpec.
 template <class Law>
 std::shared_ptr<const ContactLaw> contact_law(Law data) {
   auto law = std::make_shared<ContactLawOf<Law>>();
@@ -138,7 +138,7 @@ std::shared_ptr<const ContactLaw> contact_law(Law data) {
 /// All laws of the closed interface, built in and added; the key contact_law.
 Kinds<ContactLaw>& contact_laws();
 
-/// Adds a law while the program starts, as an object at namespace scope.
+/// Registers a law at the start of the program, as an object at namespace scope.
 template <class Law>
 struct AddContactLaw {
   AddContactLaw() { contact_laws().add(kind_of<ContactLaw, ContactLawOf<Law>>()); }

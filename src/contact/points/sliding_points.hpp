@@ -1,5 +1,5 @@
-/// The points of a slave that slide over a master: where they are, which partners they have met, and the
-/// pairs of faces that the graph of the matrix holds for them.
+/// The contact points of a slave surface that slide over a master: their positions, their partners, and the
+/// pairs of faces for which the matrix has entries (the graph).
 #pragma once
 
 #include <memory>
@@ -12,29 +12,30 @@
 namespace solidus::contact {
 
 struct SlidingOptions {
-  IntegrationRule rule = IntegrationRule::gauss;  ///< gauss or nodal, of the points at the start
+  IntegrationRule rule = IntegrationRule::gauss;  ///< gauss or nodal, for the initial points
   int gauss_degree = 4;
-  /// Faces around a partner that the graph of the matrix keeps ready, in rings.
+  /// Rings of faces around the partner's face that are included in the graph in advance.
   int graph_rings = 2;
-  /// Points with larger openings do not ask for a new graph [m].
+  /// Points with larger gaps do not require a new graph [m].
   double graph_distance = 1e300;
-  /// The graph holds the pairs of nodes of all faces that one slave face meets: forces at a point may depend
-  /// on the motion of others.
+  /// The graph includes the pairs of nodes of all master faces opposite one slave face: forces at a point may
+  /// depend on the motion of other points.
   bool meets_several = false;
 };
 
-/// A place on the slave that stands for a part of it.
+/// An integration point on the slave.
 struct SlavePlace {
   Index face = 0;
   Point xi{};
   double weight = 0;  ///< area in the reference configuration, with 2πr [m²]
-  Index hint = -1;    ///< a face of the master that may be near
+  Index hint = -1;    ///< number of a master face that may be near
 };
 
 class SlidingPoints {
  public:
-  /// Relation of a point to this process: from a face that it meets, the graph's rings reach a node of its
-  /// own (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
+  /// Relation of a point to this process: the rings around its partner's face contain a node owned by the
+  /// process (reached), or would contain one with twice as many rings (near), so that the graph includes it
+  /// in advance.
   enum Concern : char { none, near, reached };
   /// The points, sorted by face.
   struct Table {
@@ -44,7 +45,7 @@ class SlidingPoints {
     std::vector<double> weight;
     std::vector<std::array<double, k_max_face_nodes>> shape;
     std::vector<Partner> partner;
-    std::vector<Index> hint;       ///< the face met last
+    std::vector<Index> hint;       ///< the last master face
     std::vector<char> behind;      ///< Master::behind, in the reference configuration
     std::vector<Concern> concern;  ///< at the last place()
   };
@@ -53,9 +54,9 @@ class SlidingPoints {
   SlidingPoints(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                 std::unique_ptr<Master> master, const SlidingOptions& options);
 
-  /// Other points in place of those there are, sorted by face: without partners until the next place().
+  /// Replaces the points, sorted by face; they have no partners until the next place().
   void set_places(std::span<const SlavePlace> places);
-  /// As ContactKinematics has them.
+  /// As in ContactKinematics.
   void set_time(double time) { time_ = time; }
   void place(std::span<const double> displacement, ContactKinematics::Points points);
   double coverage() const { return coverage_; }
@@ -66,11 +67,11 @@ class SlidingPoints {
   const Table& table() const { return table_; }
   const ContactSurface& slave() const { return slave_; }
   Master& master() const { return *master_; }
-  /// The area that a point stands for where it is; all of its own where it has no partner [m²].
+  /// The area of a point that is covered by the master; its whole area if it has no partner [m²].
   double weight_of(std::size_t point) const { return table_.weight[point] * table_.partner[point].covered; }
 
  private:
-  /// Pairs of faces that the graph holds: master faces of every slave face, sorted.
+  /// Pairs of faces in the graph: master faces of every slave face, sorted.
   struct AllowedFaces {
     std::vector<std::size_t> first;  ///< [slave face], one more at the end
     std::vector<Index> faces;

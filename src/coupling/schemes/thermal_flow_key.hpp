@@ -1,4 +1,4 @@
-/// The key by which a split chooses the flow of metal in its thermal phase.
+/// The key of a split for plastic flow in its thermal phase.
 #pragma once
 
 #include "coupling/thermal_flow.hpp"
@@ -6,7 +6,7 @@
 
 namespace solidus::coupling {
 
-/// Declares the key of [coupling] by which a scheme's options choose it.
+/// Declares this key of [coupling] for a scheme's options.
 template <class Scheme, class Options>
 void declare_thermal_flow(Section<Scheme>& s, ThermalFlow Options::*flow) {
   s.choice("thermal_flow", static_cast<ThermalFlow Scheme::*>(flow),

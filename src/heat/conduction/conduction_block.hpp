@@ -2,16 +2,16 @@
 ///
 ///   r_a += ∫ ∇N_a · ∇u dV,   u = Σ_b N_b u(Θ_b)       ∂r_a/∂Θ_b = k(Θ_b) ∫ ∇N_a · ∇N_b dV
 ///
-/// r = K u with the matrix K of the second formula without k: HeatSystem keeps it.
+/// r = K u, where K is the matrix of the second formula without k; HeatSystem stores it.
 ///
 /// with Kirchhoff's potential u = ∫ k dΘ at the nodes (kirchhoff_potential.hpp), interpolated as the
 /// temperature is: the flux k ∇Θ to the order of the element, exact in one dimension, and linear in the nodal
 /// potentials for every k(Θ).
 ///
-/// Closed rule: quads and hexes are integrated at their nodes, which makes the matrix of non-negative type on
-/// rectangles and boxes (6.34). Their nodal gradients are shifted by a constant so that the mean gradient is
-/// the exact one: a linear field is then reproduced on distorted elements too, and nothing changes on
-/// rectangles. Otherwise Gauss points.
+/// Quadrature at the nodes (closed rule): quads and hexes are integrated at their nodes, which makes the
+/// matrix of non-negative type on rectangles and boxes (6.34). Their nodal gradients are shifted by a
+/// constant so that the mean gradient is the exact one: a linear field is then reproduced on distorted
+/// elements too, and nothing changes on rectangles. Otherwise Gauss points.
 #pragma once
 
 #include <memory>
@@ -26,16 +26,16 @@ namespace solidus::heat {
 class ConductionBlock {
  public:
   virtual ~ConductionBlock() = default;
-  /// The matrix has a new graph: places in it are found again.
+  /// Finds the positions of the entries in a matrix with a new graph.
   virtual void bind(const linear::BlockMatrix& matrix) = 0;
   /// matrix_ab += factor ∫ ∇N_a · ∇N_b dV columns_b.
   /// @param columns  [local node]; empty: one
   virtual void add_tangent(double factor, std::span<const double> columns,
                            linear::BlockMatrix& matrix) const = 0;
-  /// The same with one for all columns, slower: nothing is remembered for the next time, which saves 180
-  /// bytes a node of tetrahedra.
+  /// The same with one for all columns, slower: nothing is stored for the next call, which saves 180 bytes
+  /// per node of tetrahedra.
   virtual void add_tangent_once(double factor, linear::BlockMatrix& matrix) const = 0;
-  /// From here on elements conduct only a share of what their material does.
+  /// From now on the conductivity of each element is multiplied by a factor.
   /// @param share  [element]
   virtual void set_shares(std::span<const double> share) = 0;
   virtual std::size_t bytes() const = 0;

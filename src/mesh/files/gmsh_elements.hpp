@@ -11,10 +11,10 @@ namespace solidus::mesh {
 struct GmshElement {
   std::string name;  ///< as Gmsh calls it: "Prism 6"
   int dimension = 0, n_nodes = 0;
-  std::optional<Shape> shape;  ///< nothing for elements that Solidus does not have
+  std::optional<Shape> shape;  ///< empty for element types that Solidus does not have
 };
 
-/// Nothing for numbers that are none of a type that Gmsh writes for geometries.
+/// Null for numbers that are not an element type written by Gmsh for geometries.
 const GmshElement* gmsh_element(int type);
 
 /// The shapes that a mesh may have, for messages.

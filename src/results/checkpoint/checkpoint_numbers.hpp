@@ -1,4 +1,4 @@
-/// The numbers of a checkpoint that are neither field nor text: of the step control, sums of energy, shots.
+/// The numbers of a checkpoint that are neither fields nor text: step control, sums of energy, shots.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ namespace solidus::results {
 /// All of them in a fixed order.
 std::vector<double> numbers_of(const CheckpointView& c);
 
-/// Takes them from the file, which must hold as many. Counts are whole and fit; the temperatures of a die
-/// that is not there are infinite. Refuses the file otherwise.
+/// Reads them from the file, which must contain the same number. Rejects the file if a count is not an
+/// integer in its range; without a die its temperatures are infinite.
 void set_numbers(TableReader& in, Checkpoint& c);
 
 }  // namespace solidus::results

@@ -10,19 +10,19 @@
 
 namespace solidus::results {
 
-/// fields/fields_00012.vtu, in parallel fields/fields_00012.pvtu with one part a process; surfaces likewise
+/// fields/fields_00012.vtu, in parallel fields/fields_00012.pvtu with one part per process; surfaces likewise
 /// as fields/surface_NAME_00012.vtu.
 class FieldOutput {
  public:
   FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh);
-  /// Goes on with the fields of an earlier run, without what came after `time`. Collective. Throws
+  /// Continues the fields of an earlier run and drops those after `time`. Collective. Throws
   /// OutputError.
   FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh, double time);
 
-  /// Writes one moment; the time written last is not written again (a run that stops there). Collective; what
-  /// fails on one process is thrown on all (OutputError, NotFiniteError), and the collection then stays as it
-  /// was.
-  /// @param surfaces  fields (at nodes) for surfaces of the mesh that get files of their own, by their name
+  /// Writes one moment, unless it was written last (by a run that stops there). Collective; an error on one
+  /// process is thrown on all (OutputError, NotFiniteError), and the collection is then unchanged.
+  /// @param surfaces  nodal fields of surfaces of the mesh, which are written to separate files, by name of
+  /// the surface
   void write(double time, const FieldSet& fields, const std::map<std::string, FieldSet>& surfaces = {});
 
   int written() const { return written_; }

@@ -9,14 +9,14 @@
 
 namespace solidus::results {
 
-/// A file or folder of the results cannot be written (full disk, no permission). The user's to solve, hence
+/// A file or folder of the results cannot be written (full disk, no permission). The user can solve it, hence
 /// an InputError: "results/x/history.csv: cannot write: No space left on device".
 class OutputError : public InputError {
  public:
   OutputError(const std::string& path, const std::string& what, const std::string& advice = {});
 };
 
-/// A value on its way into a result file is not a number or infinite. Nothing of that file is written.
+/// A value for a result file is infinite or not a number. Nothing of that file is written.
 class NotFiniteError : public std::runtime_error {
  public:
   /// @param field "field 'temperature'"
