@@ -22,6 +22,9 @@ void range_of_owned(const std::vector<double>& temperature, Index n_owned, const
   }
   effort.min_temperature = parallel::global_min(low);
   effort.max_temperature = parallel::global_max(high);
+  // Before a body begins to grow nothing is there: then the range is that of what will come.
+  if (effort.max_temperature < effort.min_temperature && active != nullptr)
+    range_of_owned(temperature, n_owned, nullptr, effort);
 }
 
 }  // namespace

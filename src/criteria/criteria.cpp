@@ -67,7 +67,13 @@ std::vector<CriterionResult> Criteria::findings(const CriteriaState& state) cons
   return all;
 }
 
+void Criteria::replace(Criteria by) {
+  list_ = std::move(by.list_);
+  for (const auto& criterion : list_) criterion->know_plates(plates_);
+}
+
 void Criteria::know_plates(std::span<const PlateTimes> plates) {
+  plates_.assign(plates.begin(), plates.end());
   for (const auto& criterion : list_) criterion->know_plates(plates);
 }
 

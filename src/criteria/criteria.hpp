@@ -16,6 +16,8 @@ class Criteria {
   explicit Criteria(const heat::ThermalPhase* phase) : phase_(phase) {}
   void add(std::unique_ptr<Criterion> criterion) { list_.push_back(std::move(criterion)); }
   bool empty() const { return list_.empty(); }
+  /// Goes on with criteria of the same kinds for a mesh that has more elements.
+  void replace(Criteria by);
   /// Hands on to each criterion how long plates take in the moulds (Criterion::know_plates).
   void know_plates(std::span<const PlateTimes> plates);
 
@@ -46,6 +48,7 @@ class Criteria {
 
   const heat::ThermalPhase* phase_;
   std::vector<std::unique_ptr<Criterion>> list_;
+  std::vector<PlateTimes> plates_;
   double seconds_ = 0;
 };
 

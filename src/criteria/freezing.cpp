@@ -66,6 +66,12 @@ std::vector<double> held_mush(const mesh::Mesh& mesh, const heat::NodalEnthalpy&
   return held;
 }
 
+/// The history of a node that has not begun to freeze.
+void forget(double* history) {
+  std::fill(history, history + k_width, 0.0);
+  for (const Slot time : k_times) history[time] = k_never;
+}
+
 }  // namespace
 
 struct Freezing::Step {
@@ -155,13 +161,17 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
   const double before = step.old.solid_fraction[i], after = step.next.solid_fraction[i];
   double* const h = history.data() + i * k_width;
 
+  // Metal that was solid may be mixed with melt between two steps, where a body grows.
+  if (before < 1 && h[k_solidified_at] >= 0) {
+    forget(h);
+    if (before > 0) h[k_liquidus_at] = step.old.time;
+  }
   if (after < 1 && (before == 1 || after == 0)) {  // melted, wholly or in part
     const bool keeps = after > 0 && !levels.at_end && to <= levels.evaluation && h[k_solidified_at] >= 0;
     if (keeps) {  // T_e was not passed: only the time as a solid does not count as solidification
       h[k_liquidus_at] += step.next.time - h[k_solidified_at];
     } else {
-      std::fill(h, h + k_width, 0.0);
-      for (const Slot time : k_times) h[time] = k_never;
+      forget(h);
       h[k_liquidus_at] = after == 0 ? k_never : step.next.time;
     }
     h[k_solidified_at] = k_never;

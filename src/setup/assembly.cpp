@@ -335,7 +335,9 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
   // The range of temperatures that a coupled run may reach is checked against the coldest start.
   if (spec.coupled())
     a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;
-  a.criteria = make_criteria(spec, a.mesh, a.materials, a.start, a.phases);
+  a.local_laws = local_laws(spec, a.materials, a.start);
+  a.criteria = make_criteria(spec, a.growth ? a.growth->present() : a.mesh, a.materials, a.start,
+                             a.local_laws, a.phases);
   if (a.criteria == nullptr) return;
   a.phases.criteria = a.criteria.get();
   a.initial.criteria = a.criteria->initial({a.initial.time, a.initial.heat, a.initial.mechanics});

@@ -9,6 +9,7 @@
 #include "contact/pair.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/state.hpp"
+#include "setup/criteria_input.hpp"
 #include "setup/deposition.hpp"
 #include "setup/initial_temperature.hpp"
 
@@ -26,6 +27,7 @@ struct Assembly {
   std::unique_ptr<coupling::Coherency> coherency;  ///< null: nothing that deforms melts
   std::unique_ptr<coupling::SkinShare> skin;       ///< the same
   std::unique_ptr<criteria::Criteria> criteria;    ///< null: nothing is followed
+  LocalLaws local_laws;                            ///< that criteria know
   coupling::Phases phases;
   coupling::State initial;
   std::unique_ptr<InitialTemperatures> initial_temperatures;

@@ -61,7 +61,7 @@ criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh
                                    .vented = spec.feeding.vented,
                                    .covered = spec.feeding.covered,
                                    .mould_rigidity = mould_rigidity(spec, materials),
-                                   .gas = {.follow = spec.gas.follow,
+                                   .gas = {.follow = spec.gas.follow && spec.depositions.empty(),
                                            .content = spec.gas.content,
                                            .ambient_pressure = spec.gas.ambient_pressure}};
   // A surface that feeds is an open one.
@@ -77,6 +77,13 @@ criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh
   for (const cases::ThermalConditionSpec& condition : spec.thermal_conditions)
     options.cooled.insert(condition.group);
   return options;
+}
+
+/// Criteria follow transient runs in which something melts.
+bool follows(const cases::CaseSpec& spec, const std::vector<material::Material>& materials) {
+  return spec.criteria.follow && !spec.time.steady &&
+         std::ranges::any_of(materials,
+                             [](const material::Material& m) { return m.solidification() != nullptr; });
 }
 
 /// Metal that moves has one mean heat, which has no meaning for two alloys.
@@ -101,10 +108,13 @@ std::vector<std::string> names_of_bodies(const cases::CaseSpec& spec) {
   return names;
 }
 
-/// Strength by where the metal froze, of the cards of bodies that criteria follow.
-std::vector<std::vector<material::LocalLaw>> local_laws(const cases::CaseSpec& spec,
-                                                        const std::vector<char>& followed) {
-  std::vector<std::vector<material::LocalLaw>> laws(spec.bodies.size());
+}  // namespace
+
+LocalLaws local_laws(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
+                     const std::vector<InitialTemperatureRange>& start) {
+  LocalLaws laws(spec.bodies.size());
+  if (!follows(spec, materials)) return laws;
+  const std::vector<char> followed = followed_bodies(spec, materials, start);
   const std::vector<std::filesystem::path> folders = cases::material_folders();
   for (std::size_t b = 0; b < laws.size(); ++b)
     if (followed[b] != 0)
@@ -112,21 +122,17 @@ std::vector<std::vector<material::LocalLaw>> local_laws(const cases::CaseSpec& s
   return laws;
 }
 
-}  // namespace
-
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
                                                   const std::vector<InitialTemperatureRange>& start,
-                                                  const coupling::Phases& phases) {
-  // Criteria follow transient runs in which something melts. Each kind of criterion decides by itself whether
-  // the run has what it needs.
-  const bool melts = std::any_of(materials.begin(), materials.end(),
-                                 [](const material::Material& m) { return m.solidification() != nullptr; });
-  if (!spec.criteria.follow || !melts || spec.time.steady) return nullptr;
+                                                  const LocalLaws& laws, const coupling::Phases& phases) {
+  if (!follows(spec, materials)) return nullptr;
   // What every criterion may ask for, gathered once: mesh, materials, phases and the options of the
   // case.
   const std::vector<char> followed = followed_bodies(spec, materials, start);
   if (spec.feeding.moves_heat) check_one_alloy(spec, followed);
+  // What a body that grows is fed from changes with it, which feeding and gas do not follow.
+  const bool whole = spec.depositions.empty();
   const criteria::CriterionContext context{
       .mesh = mesh,
       .kind = spec.analysis.kind,
@@ -138,9 +144,9 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
       .evaluation = spec.criteria.evaluation,
       .feeding_limit = spec.criteria.feeding_limit,
       .feeders = spec.criteria.feeders,
-      .feeding = spec.feeding.follow,
+      .feeding = spec.feeding.follow && whole,
       .feeding_options = feeding_options(spec, mesh, materials, start),
-      .local_laws = local_laws(spec, followed),
+      .local_laws = laws,
       .names = names_of_bodies(spec)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   // A mistake in a criterion's options is told with the place of the section that it belongs to.

@@ -2,20 +2,31 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "cases/case_spec.hpp"
 #include "coupling/phases.hpp"
+#include "material/local_law.hpp"
 #include "setup/initial_temperature.hpp"
 
 namespace solidus::setup {
 
+using LocalLaws = std::vector<std::vector<material::LocalLaw>>;
+
+/// Strength and grain by where the metal froze, of the cards of bodies that criteria follow, [body]. Throws
+/// InputError for a card that cannot be read.
+LocalLaws local_laws(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
+                     const std::vector<InitialTemperatureRange>& start);
+
 /// Creates the criteria of a case; null: none, because nothing can freeze or the case says so. Collective.
+/// @param mesh       the elements that are there
 /// @param start      temperatures, [body]: what is poured is followed (cast_bodies.hpp)
+/// @param laws       of local_laws()
 /// @param phases     without criteria yet; it, mesh and materials outlive the criteria
 /// Throws InputError for a feeder that is no group of the mesh.
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
                                                   const std::vector<InitialTemperatureRange>& start,
-                                                  const coupling::Phases& phases);
+                                                  const LocalLaws& laws, const coupling::Phases& phases);
 
 }  // namespace solidus::setup

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/assembly.hpp"
+#include "setup/criteria_input.hpp"
+#include "setup/deposition_checks.hpp"
 #include "setup/heat_input.hpp"
 #include "setup/place_input.hpp"
 #include "setup/section_names.hpp"
@@ -69,9 +72,15 @@ double birth_by_front(const cases::DepositionSpec& d, const Position& x) {
   return distance <= 0 ? -HUGE_VAL : d.start + distance / *d.speed;
 }
 
-/// When the point of a path passes a place that lies in its bead; infinite where it never does.
-double birth_by_path(const cases::DepositionSpec& d, const TravelPath& path, int dimension,
-                     const Position& x) {
+/// When the point of a path passes a place that lies in its bead, on which move and how far along it;
+/// infinite where it never does.
+struct Passing {
+  double time = HUGE_VAL;
+  std::size_t move = 0;
+  double along = 0;  ///< [m]
+};
+
+Passing passing(const cases::DepositionSpec& d, const TravelPath& path, int dimension, const Position& x) {
   constexpr double k_margin = 1e-6;  // of the bead
   Position down{};
   down[static_cast<std::size_t>(dimension) - 1] = -1;
@@ -92,9 +101,9 @@ double birth_by_path(const cases::DepositionSpec& d, const TravelPath& path, int
     if (along < -k_margin * length || along > (1 + k_margin) * length || across > 0.5 * *d.width ||
         into < -k_margin * *d.depth || into > *d.depth)
       continue;
-    return points[i].time + std::max(0.0, along) / length * (points[i + 1].time - points[i].time);
+    return {points[i].time + std::max(0.0, along) / length * (points[i + 1].time - points[i].time), i, along};
   }
-  return HUGE_VAL;
+  return {};
 }
 
 std::vector<Position> centres(const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
@@ -107,9 +116,27 @@ std::vector<Position> centres(const mesh::Mesh& mesh, const mesh::ElementBlock& 
   return all;
 }
 
+/// The length of the pieces in which a path's elements are counted: no shorter than bead and elements. The
+/// same on all processes. Collective.
+double piece_of(const cases::DepositionSpec& d, const mesh::Mesh& mesh) {
+  double reach = 0;
+  for (const mesh::ElementBlock& block : mesh.blocks) {
+    if (mesh.bodies[static_cast<std::size_t>(block.body)].name != d.body) continue;
+    const std::vector<Position> x = centres(mesh, block);
+    for (Index e = 0; e < block.size(); ++e) {
+      const mesh::Point& corner = mesh.x[static_cast<std::size_t>(block.element(e)[0])];
+      const Position& c = x[static_cast<std::size_t>(e)];
+      reach = std::max(reach, std::hypot(corner[0] - c[0], corner[1] - c[1], corner[2] - c[2]));
+    }
+  }
+  return std::max({*d.width, *d.depth, 2 * parallel::global_max(reach)});
+}
+
 /// Times of birth of a block's elements.
+/// @param laid  counts those that a path lays down; null: there is no path
 std::vector<double> births_of(const cases::CaseSpec& spec, const cases::DepositionSpec& d,
-                              const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
+                              const mesh::Mesh& mesh, const mesh::ElementBlock& block,
+                              const std::optional<TravelPath>& path, LaidDown* laid) {
   const std::vector<Position> x = centres(mesh, block);
   std::vector<double> times(x.size());
   if (d.kind == Kind::times) {
@@ -120,9 +147,11 @@ std::vector<double> births_of(const cases::CaseSpec& spec, const cases::Depositi
     std::ranges::transform(x, times.begin(), [&](const Position& c) { return birth_by_front(d, c); });
     return times;
   }
-  const TravelPath path = travel_path(d.path, spec.dimension(), d.where);
-  std::ranges::transform(x, times.begin(),
-                         [&](const Position& c) { return birth_by_path(d, path, spec.dimension(), c); });
+  for (std::size_t e = 0; e < x.size(); ++e) {
+    const Passing passed = passing(d, *path, spec.dimension(), x[e]);
+    times[e] = passed.time;
+    if (passed.time < HUGE_VAL) laid->count(passed.move, passed.along);
+  }
   return times;
 }
 
@@ -131,11 +160,17 @@ std::vector<linear::GrowingMesh::Births> all_births(const cases::CaseSpec& spec,
   std::vector<linear::GrowingMesh::Births> births(mesh.blocks.size());
   for (const cases::DepositionSpec& d : spec.depositions) {
     double reached = 0, never = 0;
+    std::optional<TravelPath> path;
+    std::optional<LaidDown> laid;
+    if (d.kind == Kind::path) {
+      path = travel_path(d.path, spec.dimension(), d.where);
+      laid.emplace(d, *path, piece_of(d, mesh));
+    }
     run_collectively([&] {
       for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
         const mesh::ElementBlock& block = mesh.blocks[b];
         if (mesh.bodies[static_cast<std::size_t>(block.body)].name != d.body) continue;
-        births[b] = births_of(spec, d, mesh, block);
+        births[b] = births_of(spec, d, mesh, block, path, laid ? &*laid : nullptr);
         for (Index e = 0; e < block.n_counted; ++e)
           (births[b][static_cast<std::size_t>(e)] < HUGE_VAL ? reached : never) += 1;
       }
@@ -148,7 +183,9 @@ std::vector<linear::GrowingMesh::Births> all_births(const cases::CaseSpec& spec,
     if (never > 0)
       logging::warn("{}: the deposition '{}' never reaches {:.0f} of the {:.0f} elements of '{}'",
                     d.where.text(), d.name, never, never + reached, d.body);
+    if (laid) laid->warn();
   }
+  check_births(spec, mesh, births);
   return births;
 }
 
@@ -237,6 +274,10 @@ coupling::BodyHeat Deposition::grow(double time, coupling::State* state) {
   heat.poured = a_.heat->grow(
       thermal_conditions(spec_, stage), [&](Index node, int body) { return initial.enthalpy(node, body); },
       state != nullptr ? &state->heat : nullptr);
+  // Criteria refer to the elements and to the storage that have just changed; their records go on.
+  if (a_.criteria)
+    a_.criteria->replace(
+        std::move(*make_criteria(spec_, present(), a_.materials, a_.start, a_.local_laws, a_.phases)));
   return heat;
 }
 

@@ -71,6 +71,11 @@ void same_body(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& fin
                           "surfaces of two bodies, unless this one has a slit"});
 }
 
+bool is_deposited(const cases::CaseSpec& spec, const cases::BodySpec& body) {
+  return std::ranges::any_of(spec.depositions,
+                             [&](const cases::DepositionSpec& d) { return d.body == body.mesh_group(); });
+}
+
 void shared_nodes(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m,
                   Findings& findings) {
   // Surfaces of a contact that share nodes are one body there. Apart from contacts, bodies that start at
@@ -93,6 +98,8 @@ void shared_nodes(const cases::CaseSpec& spec, const setup::Assembly& a, const C
       const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
                                     [](const setup::ContactMeasures& c) { return c.shared_nodes > 0; });
       if (told) continue;
+      // What is deposited grows on what is there, and is one with it.
+      if (is_deposited(spec, spec.bodies[b]) || is_deposited(spec, spec.bodies[other])) continue;
       // Metals that are poured together may share nodes, and then want one temperature.
       const bool one_metal =
           a.materials[b].solidification() != nullptr && a.materials[other].solidification() != nullptr;

@@ -64,9 +64,10 @@ ConductionBlock& ConductionElements::block(std::size_t number) {
 }
 
 const double* ConductionElements::potential(std::size_t body, std::span<const double> temperature) {
-  if (potentials_[body].constant()) return temperature.data();
+  // A body without an element here, which has yet to grow, conducts nothing: any field will do.
   Field& field = fields_[body];
-  if (!field.nodes.empty()) field.value.resize(mesh_.x.size());
+  if (potentials_[body].constant() || field.nodes.empty()) return temperature.data();
+  field.value.resize(mesh_.x.size());
   for (const Index node : field.nodes) {
     const auto i = static_cast<std::size_t>(node);
     field.value[i] = potentials_[body].value(temperature[i]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "parallel/parallel.hpp"
@@ -45,6 +46,13 @@ bool same(const LoadWindow& a, const LoadWindow& b) {
 bool splits(const LoadLaw& law) {
   if (law.kind != LoadLaw::Kind::power || law.steady()) return false;
   return std::ranges::all_of(law.functions, [](const PlaceFunction& f) { return f.uniform() || f.steady(); });
+}
+
+/// Whether nothing has been told of a load of this name yet: where a body grows, loads are made again and
+/// again.
+bool first_of_its_name(const std::string& name) {
+  static std::set<std::string> told;
+  return told.insert(name).second;
 }
 
 }  // namespace
@@ -259,7 +267,7 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
 }
 
 void PlacedLoad::check(const CellIntegrals::Result& integrals, double by_points) {
-  if (by_points == 0 && !std::exchange(told_coarse_, true))
+  if (by_points == 0 && !std::exchange(told_coarse_, true) && first_of_its_name(name_))
     logging::info(
         "'{}' is smaller than the elements that it acts on: its power is its integral, but temperatures "
         "around it "

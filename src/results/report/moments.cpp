@@ -74,17 +74,21 @@ class Reading {
   Reading(const Bodies& bodies, const std::set<std::int64_t>& contact_nodes)
       : bodies_(bodies.all()), contact_nodes_(contact_nodes) {}
 
-  /// Which bodies are there: those with a cell that is not hidden.
-  static std::vector<bool> present(const FieldFile& file, const std::vector<PieceMap>& maps, std::size_t n) {
-    std::vector<bool> there(n, false);
+  /// The nodes of each body that are there: those of cells that are not hidden, [body][node].
+  std::vector<std::vector<bool>> present(const FieldFile& file, const std::vector<PieceMap>& maps) const {
+    std::vector<std::vector<bool>> there;
+    for (const BodyMesh& body : bodies_) there.emplace_back(body.x.size(), false);
     for (std::size_t p = 0; p < maps.size(); ++p) {
       const FieldFile::Piece& piece = file.pieces()[p];
       const ptree* array = mesh::find_array(*piece.tree, "CellData", "vtkGhostType");
       std::vector<double> ghost(piece.n_cells, 0.0);
       if (array != nullptr) ghost = piece.file->numbers(*array, piece.n_cells);
-      for (std::size_t c = 0; c < piece.n_cells; ++c)
-        if (ghost[c] == 0 && maps[p].cells[c].body >= 0)
-          there[static_cast<std::size_t>(maps[p].cells[c].body)] = true;
+      for (std::size_t c = 0; c < piece.n_cells; ++c) {
+        const PieceMap::Cell& cell = maps[p].cells[c];
+        if (ghost[c] != 0 || cell.body < 0) continue;
+        for (const std::int32_t node : cell.nodes)
+          there[static_cast<std::size_t>(cell.body)][static_cast<std::size_t>(node)] = true;
+      }
     }
     return there;
   }
@@ -183,6 +187,12 @@ class Reading {
   std::string kept_name_;
 };
 
+/// Takes the values of nodes that are not there.
+void leave_out(const std::vector<bool>& there, std::vector<float>& values) {
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (!there[n]) values[n] = std::numeric_limits<float>::quiet_NaN();
+}
+
 PackedValues pack(const std::vector<std::vector<float>>& moments, Blocks& blocks) {
   const Packed16 packed = pack16(moments);
   if (!packed.any) return {-2, -1, 0, 0};
@@ -227,12 +237,19 @@ PackedMoments pack_moments(Bodies& bodies, const std::vector<ReportMoment>& mome
     const FieldFile file(moment.file);
     const std::vector<PieceMap>& maps = bodies.maps(file);
     packed.moments.push_back(moment);
-    packed.present.push_back(Reading::present(file, maps, n_bodies));
+    // A body is there with its first node. Nodes that are not, where a body grows, have no value.
+    const std::vector<std::vector<bool>> there = reading.present(file, maps);
+    packed.present.emplace_back();
+    for (const std::vector<bool>& of_body : there)
+      packed.present.back().push_back(std::ranges::find(of_body, true) != of_body.end());
     auto& extremes = packed.extremes.emplace_back(columns.size());
     for (std::size_t k = 0; k < columns.size(); ++k) {
       if (columns[k].at_end && !last) continue;
       std::vector<std::vector<float>> of_bodies = reading.read(file, maps, columns[k], extremes[k]);
-      for (std::size_t b = 0; b < n_bodies; ++b) values[k][b].push_back(std::move(of_bodies[b]));
+      for (std::size_t b = 0; b < n_bodies; ++b) {
+        if (packed.present.back()[b] && !columns[k].at_end) leave_out(there[b], of_bodies[b]);
+        values[k][b].push_back(std::move(of_bodies[b]));
+      }
     }
   };
   // The size of the last moment tells how many there is room for.

@@ -1,5 +1,5 @@
 """random CASES [--seed S] [--program P] [--folder F] [--jobs J] [--limit SECONDS] [--processes P]
-                [--allow N] [--also SEED ...] [--physics PHYSICS]
+                [--allow N] [--also SEED ...] [--physics PHYSICS] [--grow]
 
 Runs cases made from the seeds S, S + 1, ... and says what of them broke an invariant, stopped (exit code 2) or was
 refused. Folders of cases that went well are removed; the others stay, for `solidus run FOLDER/SEED/case.toml`.
@@ -34,13 +34,14 @@ def main():
     parser.add_argument("--also", type=int, nargs="*", default=[], help="further seeds, of cases that were mended")
     parser.add_argument("--physics", default="", choices=["heat", "mechanics", "thermomechanical"],
                         help="that all cases have; default: what each draws")
+    parser.add_argument("--grow", action="store_true", help="heat alone, of a body that grows")
     arguments = parser.parse_args()
 
     runner = Runner(arguments.program, arguments.folder, arguments.limit)
     count, reasons = collections.Counter(), collections.defaultdict(list)
 
     def run(seed):
-        case = random_case(seed, arguments.physics)
+        case = random_case(seed, arguments.physics, arguments.grow)
         case.processes = min(case.processes, arguments.processes)
         return case, runner.check(case)
 

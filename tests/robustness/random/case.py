@@ -7,6 +7,7 @@ message that names the place in the file is counted as such by check.py and shou
 import random
 from dataclasses import dataclass, field
 
+from growth import growth
 from interface import contact
 from material import material
 from writing import Writer, around
@@ -30,21 +31,21 @@ class Case:
     facts: dict = field(default_factory=dict)
 
 
-def random_case(seed, only=""):
-    """The case of a seed; only: the physics that all are to have, whatever the seed draws."""
+def random_case(seed, only="", grows=False):
+    """The case of a seed; only: the physics that all are to have, whatever the seed draws; grows: its body does."""
     rng = random.Random(seed)
     case = Case(seed)
     facts = case.facts
     w = Writer()
     kind = facts["kind"] = rng.choice(["plane_strain", "axisymmetric", "solid"])
     drawn = rng.choice(["heat", "mechanics"] + 6 * ["thermomechanical"])
-    physics = facts["physics"] = only or drawn
+    physics = facts["physics"] = "heat" if grows else only or drawn
     element = facts["element"] = rng.choice(SOLID if kind == "solid" else PLANE)
     dynamic = facts["dynamic"] = physics != "heat" and rng.random() < 0.08
     w.add(title=f"A random case, seed {seed}")
     gravity = rng.choice([None, "9.81 m/s2"]) if physics != "heat" else None
     w.section("[analysis]", kind=kind, physics=physics, gravity=gravity)
-    shape = mesh(rng, w, kind, element)
+    shape = mesh(rng, w, facts, kind, element, ["block"] if grows else [])
     facts["shape"] = shape
     bodies = choose_bodies(rng, case, shape, physics)
     steps = time(rng, w, facts, physics, dynamic)
@@ -58,7 +59,9 @@ def random_case(seed, only=""):
         mechanical_conditions(rng, w, kind, shape, bodies)
     if shape != "block":
         contact(rng, w, facts, kind, physics, shape, bodies, dynamic)
-    numerics(rng, w, facts, physics, dynamic)
+    if grows:
+        growth(rng, w, case, kind)
+    numerics(rng, w, facts, physics, dynamic, grows)
     w.section("[output]", checkpoint_every=1, stage_ends=False)
     case.processes = facts["processes"] = 2 if rng.random() < 0.05 else 1
     facts["steps"] = steps
@@ -66,8 +69,8 @@ def random_case(seed, only=""):
     return case
 
 
-def mesh(rng, w, kind, element):
-    shape = rng.choice(["block", "two_blocks", "two_blocks", "two_blocks"] + (["cylinder_in_mould"] * 2 if kind == "axisymmetric" else []))
+def mesh(rng, w, facts, kind, element, only):
+    shape = rng.choice(only or ["block", "two_blocks", "two_blocks", "two_blocks"] + (["cylinder_in_mould"] * 2 if kind == "axisymmetric" else []))
     dim = 3 if kind == "solid" else 2
     few = 2 if kind == "solid" else 4
     w.section("[mesh]", shape=shape, element=element)
@@ -80,7 +83,9 @@ def mesh(rng, w, kind, element):
         return [rng.randint(1, few) for _ in range(dim)]
 
     if shape == "block":
-        w.section("[mesh.block]", size=size(length * rng.uniform(0.2, 1.5)), divisions=divisions())
+        height = length * rng.uniform(0.2, 1.5)
+        w.section("[mesh.block]", size=size(height), divisions=divisions())
+        facts["size"] = [length] * (dim - 1) + [round(height, 2)]
     elif shape == "two_blocks":
         w.section("[mesh.two_blocks]", lower=size(length * rng.uniform(0.2, 0.8)),
                   upper=size(length * rng.uniform(0.2, 0.8)), lower_divisions=divisions(), upper_divisions=divisions())
@@ -202,10 +207,10 @@ def mechanical_conditions(rng, w, kind, shape, bodies):
         support(top, along)
 
 
-def numerics(rng, w, facts, physics, dynamic):
+def numerics(rng, w, facts, physics, dynamic, grows):
     # The open rule is for smooth temperatures: a chill by more than this over- and undershoots below 0 K.
     smooth = max(facts["temperatures"]) - min(facts["temperatures"]) < 300
-    heat = {"integration": rng.choice(["closed", "open"]) if smooth else "closed"}
+    heat = {"integration": rng.choice(["closed", "open"]) if smooth and not grows else "closed"}
     facts["closed"] = heat["integration"] == "closed"
     schemes = ["isentropic", "isothermal", "double_pass", "block_iterative", "simultaneous", "simultaneous"]
     facts["scheme"] = scheme = rng.choice(schemes) if physics == "thermomechanical" else physics

@@ -71,6 +71,10 @@ export class Values {
     readonly moments: number,
   ) {}
 
+  /** Whether some place has no value at some moment. */
+  get partial(): boolean {
+    return this.packed[0] >= 0 && this.packed[3] >= 0;
+  }
   get none(): boolean {
     return this.packed[0] === -2;
   }

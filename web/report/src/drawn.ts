@@ -4,11 +4,13 @@ import type { Shape } from "./geometry";
 
 /** Stands for "no value" where a graphics card would not keep NaN. */
 export const NONE = -1e30;
+/** The same of a place that is not there yet, where a body grows: it is not drawn. */
+const GONE = -2e30;
 
 export const VERTEX = `
 in vec3 disp; in float value; in float angle;
 uniform float scale;
-out vec3 vPlace; out vec3 vEye; out vec3 vNormal; out float vValue; out float vThere;
+out vec3 vPlace; out vec3 vEye; out vec3 vNormal; out float vValue; out float vThere; out float vGone;
 vec3 turned(vec3 p, float a) { if (a == 0.0) return p; return vec3(p.x * cos(a) + p.z * sin(a), p.y, p.z * cos(a) - p.x * sin(a)); }
 void main() {
   vPlace = position;
@@ -17,6 +19,7 @@ void main() {
   vEye = eye.xyz;
   vNormal = normalMatrix * turned(normal, angle);
   vThere = value > -1e29 ? 1.0 : 0.0;
+  vGone = value < -1.5e30 ? 1.0 : 0.0;
   vValue = value > -1e29 ? value : 0.0;
   gl_Position = projectionMatrix * eye;
 }`;
@@ -28,10 +31,10 @@ uniform float low; uniform float high; uniform float bands; uniform bool logarit
 uniform vec4 cut; uniform bool cutting; uniform vec2 only; uniform bool onlyOn;
 uniform int style; // 0: lit skin, 1: flat, 2: lit by the triangles themselves, 3: ghost, 4: line
 uniform vec3 plain; uniform float opacity;
-in vec3 vPlace; in vec3 vEye; in vec3 vNormal; in float vValue; in float vThere;
+in vec3 vPlace; in vec3 vEye; in vec3 vNormal; in float vValue; in float vThere; in float vGone;
 out vec4 colour;
 void main() {
-  if (cutting && dot(vPlace, cut.xyz) > cut.w) discard;
+  if (vGone > 1e-4 || (cutting && dot(vPlace, cut.xyz) > cut.w)) discard;
   bool there = vThere > 0.999;
   if (onlyOn && style != 2 && style != 3 && (!there || vValue < only.x || vValue > only.y)) discard;
   if (style == 4) { colour = vec4(plain, opacity); return; }
@@ -62,6 +65,7 @@ export class Drawn {
   readonly value: Float32Array;
   private attributes: BufferAttribute[];
   private shownValues?: Float32Array;
+  private shownPlaces?: Float32Array;
   private shownParts: Float32Array[] = [];
 
   constructor(readonly body: number, readonly shape: Shape, x: Float32Array, material: ShaderMaterial, line: ShaderMaterial) {
@@ -91,14 +95,21 @@ export class Drawn {
     this.edges = new LineSegments(geometry(shape.edges), line);
     for (const each of [this.mesh, this.features, this.edges]) each.frustumCulled = false;
   }
-  /** Values at the nodes. What is shown already goes to the graphics card no second time. */
-  setValues(values: Float32Array): void {
-    if (values === this.shownValues) return;
+  /** Whether a vertex belongs to a place that is not there. */
+  gone(vertex: number): boolean {
+    return this.value[vertex] < NONE;
+  }
+  /** Values at the nodes. What is shown already goes to the graphics card no second time.
+   * @param places  a field that is NaN at nodes that are not there */
+  setValues(values: Float32Array, places?: Float32Array): void {
+    if (values === this.shownValues && places === this.shownPlaces) return;
     this.shownValues = values;
+    this.shownPlaces = places;
     const { a, b, t } = this.shape;
     for (let i = 0; i < a.length; ++i) {
       const v = t[i] === 0 ? values[a[i]] : (1 - t[i]) * values[a[i]] + t[i] * values[b[i]];
-      this.value[i] = Number.isFinite(v) ? v : NONE;
+      const gone = places !== undefined && (Number.isNaN(places[a[i]]) || (t[i] !== 0 && Number.isNaN(places[b[i]])));
+      this.value[i] = gone ? GONE : Number.isFinite(v) ? v : NONE;
     }
     this.attributes[1].needsUpdate = true;
   }

@@ -53,7 +53,7 @@ export function pick(targets: Target[], camera: Camera, scale: number, px: numbe
       const corners = [i, j, k], weights = [u / (u + v + s), v / (u + v + s), s / (u + v + s)];
       const mix = (values: Float32Array, size: number, axis: number) => corners.reduce((sum, q, n) => sum + weights[n] * values[size * q + axis], 0);
       const depth = mix(eye, 3, 2);
-      if (best && depth <= best.depth) continue;
+      if ((best && depth <= best.depth) || corners.some((q) => d.gone(q))) continue;
       const place = [0, 1, 2].map((axis) => mix(d.position, 3, axis)) as [number, number, number];
       const value = corners.every((q) => d.value[q] > NONE / 10) ? mix(d.value, 1, 0) : NaN;
       if (!there(place, value)) continue;

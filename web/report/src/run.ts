@@ -154,6 +154,10 @@ export class Field {
   has(body: number): boolean {
     return this.columns.some((c) => c[body] && !c[body].none);
   }
+  /** Whether some place has no value at some moment. */
+  partial(body: number): boolean {
+    return this.columns.some((c) => c[body]?.partial);
+  }
   values(body: number, moment: number): Float32Array {
     const parts = this.columns.map((c) => c[body].at(moment));
     if (parts.length === 1) return parts[0];
@@ -351,6 +355,11 @@ export class Run {
   }
   present(body: number, moment: number): boolean {
     return this.meta.moments?.[moment]?.present[body] ?? true;
+  }
+  /** Temperatures at the nodes of a body that grows: NaN where it has not been yet. Nothing for others. */
+  places(body: number, moment: number): Float32Array | undefined {
+    const field = this.fields.find((f) => f.id === "temperature");
+    return field?.partial(body) ? field.values(body, moment) : undefined;
   }
   /** Bodies that melt: what the run says it pours, else what was not solid at the start. */
   get castings(): number[] {

@@ -143,11 +143,12 @@ export class View {
       const state = this.state(b);
       if (state === "hidden") return;
       const values = field?.has(b) ? field.values(b, m) : new Float32Array(body.n).fill(NaN);
+      const places = this.run.places(b, m);
       const displacement = this.run.displacement.map((axis) => axis[b].at(m));
       const shapes = this.shapes[b];
       const drawn = this.shapesOf(b, shapes, values, state, cutting);
       for (const d of drawn) {
-        d.setValues(values);
+        d.setValues(values, places);
         d.setDisplacement(displacement);
         this.scene.add(d.mesh);
         if (d.mesh.material === this.materials[3]) continue;
