@@ -137,6 +137,8 @@ struct MeshSpec {
   std::vector<MeshConstantSpec> constants;  ///< for .geo scripts
   std::vector<MeshGroupSpec> groups;        ///< of files that are meshed here
   std::vector<MeshLayersSpec> layers;
+  int refine = 0;            ///< how often all edges are halved (mesh/refinement/refine.hpp)
+  std::string refined_skin;  ///< "curved" or "flat": where new nodes of the skin lie
   bool conforming = false;  ///< bodies that touch share nodes, of STEP, BREP, IGES
   std::vector<MeshSizeSpec> sizes;
   int way = 0;  ///< of meshing solids and skins: the only one that is tried, from one; 0: one after the other

@@ -275,6 +275,20 @@ Section<MeshSpec> mesh_keys() {
   s.sections("constant", &MeshSpec::constants, constant_keys());
   s.sections("group", &MeshSpec::groups, group_keys());
   s.sections("layers", &MeshSpec::layers, layers_keys());
+  s.key("refine", &MeshSpec::refine)
+      .initially(0)
+      .range(0, 6)
+      .doc(
+          "How often all edges of the mesh are halved, whatever it came from: each time a solid has eight "
+          "times as many elements, a plane four times. Each process refines its own part, so that no process "
+          "holds the refined mesh whole.");
+  s.key("refined_skin", &MeshSpec::refined_skin)
+      .initially("curved")
+      .choices({"curved", "flat"})
+      .doc(
+          "Where `refine` puts new nodes on the skin of bodies of linear elements: on arcs through smooth "
+          "parts of it (those that bend by less than 30 degrees from face to face), or in the middle of "
+          "straight edges. Elements of second order keep their own shape.");
   s.key("conforming", &MeshSpec::conforming)
       .initially(false)
       .doc(

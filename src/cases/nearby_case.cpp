@@ -103,6 +103,11 @@ NearbyCase coarser_mesh(const CaseSpec& spec) {
   // In three dimensions elements are many, so that they are made coarser by less.
   const double factor = spec.analysis.kind == AnalysisKind::solid ? 1.5 : 2.0;
   NearbyCase made;
+  // A mesh that the run refines has its coarser neighbour in itself: the same with one halving less.
+  if (mesh.refine > 0) {
+    made.overrides.push_back(fmt::format("mesh.refine={}", mesh.refine - 1));
+    return made;
+  }
   coarsen_shape(made, mesh, factor);
   coarsen_sizes(made, mesh, factor);
   if (mesh.element_size) set_length(made, "element_size", factor * *mesh.element_size);

@@ -16,6 +16,7 @@
 #include "mesh/making/wall_layers.hpp"
 #include "mesh/message.hpp"
 #include "mesh/parts/distribute.hpp"
+#include "mesh/refinement/refine.hpp"
 #include "results/output/output_error.hpp"
 #include "setup/interfaces.hpp"
 #include "setup/mesh_checks.hpp"
@@ -198,6 +199,31 @@ mesh::RawMesh make_raw_mesh(cases::CaseSpec& spec, std::vector<FoundInterface>& 
   return result;
 }
 
+/// Halves the edges of the parts of all processes, and says what has become of the mesh.
+mesh::Mesh refined(const cases::MeshSpec& m, mesh::Mesh mesh, const std::vector<mesh::OtherGroup>& others) {
+  try {
+    mesh::check_refined_size(mesh, m.refine);
+  } catch (const InputError& error) {
+    throw InputError(m.where, error.what());
+  }
+  const GlobalIndex before = mesh.n_global_nodes;
+  double seconds = 0;
+  mesh::RefinementReport report;
+  {
+    const Stopwatch watch(seconds);
+    mesh = mesh::refine(std::move(mesh), {m.refine, m.refined_skin == "curved"}, others, report);
+  }
+  logging::info("mesh refined {}: {} nodes from {}, in {:.2g} s",
+                m.refine == 1 ? "once" : fmt::format("{} times", m.refine), mesh.n_global_nodes, before,
+                seconds);
+  if (report.on_arcs > 0 || report.straightened > 0)
+    logging::info(
+        "new nodes of the skin: {} on arcs; {} on straight edges, where an arc would have folded an "
+        "element",
+        report.on_arcs, report.straightened);
+  return mesh;
+}
+
 /// Distributes the interfaces that process 0 has found to all processes.
 std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found) {
   mesh::Packer packer;
@@ -275,7 +301,10 @@ mesh::Mesh load_mesh(cases::CaseSpec& spec, MadeMesh* made) {
     for (const std::string& surface : contact.sides())
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
   spec.mesh.unsound = raw.unsound;
-  return mesh::distribute(std::move(raw), bodies, replicated, work);
+  if (spec.mesh.refine == 0) return mesh::distribute(std::move(raw), bodies, replicated, work);
+  std::vector<mesh::OtherGroup> others;
+  results::on_first_process([&] { others = mesh::prepare_refinement(raw, bodies); });
+  return refined(spec.mesh, mesh::distribute(std::move(raw), bodies, replicated, work), others);
 }
 
 }  // namespace solidus::setup

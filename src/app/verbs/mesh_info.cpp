@@ -39,6 +39,7 @@ struct NamedMesh {
   RawMesh mesh;
   std::map<std::string, std::string> bodies;
   std::optional<mesh::LengthUnit> unit = {};  ///< that the file says itself
+  int refine = 0;                             ///< how often a run halves its edges
 };
 
 NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
@@ -46,6 +47,7 @@ NamedMesh read(const CaseArguments& arguments, const std::string& unit) {
     const setup::Case given = load_case(arguments);
     NamedMesh named{setup::raw_mesh(given.spec), {}};
     for (const cases::BodySpec& body : given.spec.bodies) named.bodies[body.mesh_group()] = body.name;
+    named.refine = given.spec.mesh.refine;
     return named;
   }
   mesh::MeshSource source{arguments.path, mesh::metres_of_unit(arguments.path, unit, "m", {"--unit", 0, 0})};
@@ -106,6 +108,10 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit, cons
     // The unit that the file itself names goes first, since everything below is in it.
     if (named.unit) text = fmt::format("the file says that its lengths are in {}\n", named.unit->name);
     text += mesh::to_text(mesh::assess(mesh));
+    // The table is of the mesh that a run begins with; halving its edges is the run's own work.
+    if (named.refine > 0)
+      text += fmt::format("mesh.refine = {}: a run has {} times as many elements, of 1/{} of the size\n",
+                          named.refine, 1LL << (named.mesh.dimension * named.refine), 1 << named.refine);
     const std::vector<std::string> bodies = bodies_of(named, arguments.path, text);
     // Faces of the bodies are numbered by where their skin has an edge.
     constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
