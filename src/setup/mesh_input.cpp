@@ -204,7 +204,7 @@ mesh::Mesh refined(const cases::MeshSpec& m, mesh::Mesh mesh, const std::vector<
   try {
     mesh::check_refined_size(mesh, m.refine);
   } catch (const InputError& error) {
-    throw InputError(m.where, error.what());
+    throw InputError(m.where, fmt::format("'refine' is {}: {}", m.refine, error.what()));
   }
   const GlobalIndex before = mesh.n_global_nodes;
   double seconds = 0;

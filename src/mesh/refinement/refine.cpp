@@ -2,6 +2,7 @@
 #include "mesh/refinement/refine.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,17 +111,28 @@ std::vector<OtherGroup> prepare_refinement(RawMesh& raw, const std::vector<std::
 }
 
 void check_refined_size(const Mesh& mesh, int times) {
-  double largest = 0, all = 0;
+  // A refined element takes about so many bytes for each of its nodes while the mesh is made.
+  constexpr double k_bytes = 25;
+  double largest[2] = {0, 0};  // elements and bytes of a process
+  double all = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    largest += block.size();
+    largest[0] += block.size();
+    largest[1] += k_bytes * node_count(block.shape) * static_cast<double>(block.size());
     all += block.n_counted;
   }
-  processes::largest(std::span(&largest, 1));
+  processes::largest(std::span<double>(largest));
   processes::sum(std::span(&all, 1));
   const double children = std::pow(mesh.dimension == 3 ? 8.0 : 4.0, times);
-  if (largest * children > std::numeric_limits<Index>::max())
-    throw InputError({}, fmt::format("the refined mesh would have {:.2g} elements", all * children),
-                     "fewer refinements, or more processes: 2e9 elements on each at most");
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const std::string what = fmt::format("the refined mesh would have {:.2g} elements", all * children);
+  if (largest[0] * children > std::numeric_limits<Index>::max())
+    throw InputError({}, what, "fewer refinements, or more processes: 2e9 elements on each at most");
+  if (largest[1] * children > memory)
+    throw InputError({},
+                     fmt::format("{}, {:.2g} GB on a process, and this machine has {:.2g} GB of memory", what,
+                                 1e-9 * largest[1] * children, 1e-9 * memory),
+                     "fewer refinements, or more processes on more machines");
 }
 
 Mesh refine(Mesh mesh, const Refinement& refinement, const std::vector<OtherGroup>& others,

@@ -27,8 +27,8 @@ struct OtherGroup {
 /// On process 0, before distribute().
 std::vector<OtherGroup> prepare_refinement(RawMesh& raw, const std::vector<std::string>& bodies);
 
-/// Throws InputError where the refined mesh would have more elements than can be counted: 2³¹ on a process.
-/// Collective.
+/// Throws InputError where the refined mesh would have more elements than can be counted, 2³¹ on a process,
+/// or than the memory of this machine holds. Collective.
 void check_refined_size(const Mesh& mesh, int times);
 
 struct RefinementReport {
