@@ -279,16 +279,21 @@ Section<MeshSpec> mesh_keys() {
       .initially(0)
       .range(0, 6)
       .doc(
-          "How often all edges of the mesh are halved, whatever it came from: each time a solid has eight "
-          "times as many elements, a plane four times. Each process refines its own part, so that no process "
-          "holds the refined mesh whole.");
+          "Number of times that all edges of the mesh are halved, whatever the mesh was made from: each time "
+          "a "
+          "solid has eight times as many elements, a plane mesh four times. Each process refines its own "
+          "part, "
+          "so that no process holds the whole refined mesh.");
   s.key("refined_skin", &MeshSpec::refined_skin)
-      .initially("curved")
-      .choices({"curved", "flat"})
+      .initially("automatic")
+      .choices({"automatic", "curved", "flat"})
       .doc(
-          "Where `refine` puts new nodes on the skin of bodies of linear elements: on arcs through smooth "
-          "parts of it (those that bend by less than 30 degrees from face to face), or in the middle of "
-          "straight edges. Elements of second order keep their own shape.");
+          "Where `refine` puts new nodes on the surface of linear elements. \"curved\": on arcs through the "
+          "smooth parts of the surface, in which neighbouring faces bend by less than 30 degrees; \"flat\": "
+          "in "
+          "the middle of the edges; \"automatic\": curved, but flat for linear tetrahedra that are made of a "
+          "CAD geometry, whose flat faces already enclose the volume of the curved ones. Elements of second "
+          "order keep their own shape.");
   s.key("conforming", &MeshSpec::conforming)
       .initially(false)
       .doc(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -200,7 +201,9 @@ mesh::RawMesh make_raw_mesh(cases::CaseSpec& spec, std::vector<FoundInterface>& 
 }
 
 /// Halves the edges of the parts of all processes, and says what has become of the mesh.
-mesh::Mesh refined(const cases::MeshSpec& m, mesh::Mesh mesh, const std::vector<mesh::OtherGroup>& others) {
+/// @param curved  new nodes of the skin lie on arcs
+mesh::Mesh refined(const cases::MeshSpec& m, bool curved, mesh::Mesh mesh,
+                   const std::vector<mesh::OtherGroup>& others) {
   try {
     mesh::check_refined_size(mesh, m.refine);
   } catch (const InputError& error) {
@@ -211,7 +214,7 @@ mesh::Mesh refined(const cases::MeshSpec& m, mesh::Mesh mesh, const std::vector<
   mesh::RefinementReport report;
   {
     const Stopwatch watch(seconds);
-    mesh = mesh::refine(std::move(mesh), {m.refine, m.refined_skin == "curved"}, others, report);
+    mesh = mesh::refine(std::move(mesh), {m.refine, curved}, others, report);
   }
   logging::info("mesh refined {}: {} nodes from {}, in {:.2g} s",
                 m.refine == 1 ? "once" : fmt::format("{} times", m.refine), mesh.n_global_nodes, before,
@@ -302,9 +305,17 @@ mesh::Mesh load_mesh(cases::CaseSpec& spec, MadeMesh* made) {
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
   spec.mesh.unsound = raw.unsound;
   if (spec.mesh.refine == 0) return mesh::distribute(std::move(raw), bodies, replicated, work);
+  // Facets of a drawn geometry enclose its volume (mesh/gmsh/curved_faces.hpp): their vertices lie outside of
+  // it, and arcs through them would enclose too much.
   std::vector<mesh::OtherGroup> others;
-  results::on_first_process([&] { others = mesh::prepare_refinement(raw, bodies); });
-  return refined(spec.mesh, mesh::distribute(std::move(raw), bodies, replicated, work), others);
+  int curved = 0;
+  results::on_first_process([&] {
+    curved = spec.mesh.refined_skin == "curved" ||
+             (spec.mesh.refined_skin == "automatic" && raw.drawn_faces.empty());
+    others = mesh::prepare_refinement(raw, bodies);
+  });
+  processes::broadcast(std::span(&curved, 1));
+  return refined(spec.mesh, curved != 0, mesh::distribute(std::move(raw), bodies, replicated, work), others);
 }
 
 }  // namespace solidus::setup

@@ -76,12 +76,13 @@ class Refine(ProgramTest):
                 if name != "energy_defect[J]":
                     self.assertAlmostEqual(value, expected[name], delta=1e-8 * max(1, abs(expected[name])), msg=f"{found}: {name}")
 
-    def test_a_part_of_a_geometry_is_refined_on_arcs(self):
+    def test_a_part_of_a_geometry_is_refined_flat_or_on_arcs(self):
         case = SOURCES / "cases/bracket_from_step"
-        result = solidus("check", str(case), "--set", "mesh.refine=1", cwd=self.folder)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, r"mesh refined once: \d+ nodes from \d+")
-        self.assertRegex(result.stderr, r"new nodes of the skin: \d+ on arcs; 0 on straight edges")
+        for skin in ("automatic", "curved"):
+            result = solidus("check", str(case), "--set", "mesh.refine=1", "--set", f"mesh.refined_skin={skin}", cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stderr, r"mesh refined once: \d+ nodes from \d+")
+            self.assertEqual("on arcs; 0 on straight edges" in result.stderr, skin == "curved", result.stderr)
 
     def test_mistakes_are_said(self):
         case = self.write("tri3.toml", harmonic("tri3"))

@@ -33,6 +33,70 @@ std::optional<Point> unit(const Point& a) {
   return Point{a[0] / length, a[1] / length, a[2] / length};
 }
 
+/// Solves five symmetric equations; false where they have no one solution.
+bool solve(std::array<std::array<double, 5>, 5>& matrix, std::array<double, 5>& right) {
+  // Cholesky's factors of a matrix of few rows, in place.
+  for (std::size_t j = 0; j < 5; ++j) {
+    for (std::size_t i = j; i < 5; ++i) {
+      double sum = matrix[i][j];
+      for (std::size_t k = 0; k < j; ++k) sum -= matrix[i][k] * matrix[j][k];
+      if (i == j) {
+        if (!(sum > 0)) return false;
+        matrix[j][j] = std::sqrt(sum);
+      } else {
+        matrix[i][j] = sum / matrix[j][j];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < i; ++k) right[i] -= matrix[i][k] * right[k];
+    right[i] /= matrix[i][i];
+  }
+  for (std::size_t i = 5; i-- > 0;) {
+    for (std::size_t k = i + 1; k < 5; ++k) right[i] -= matrix[k][i] * right[k];
+    right[i] /= matrix[i][i];
+  }
+  return true;
+}
+
+/// The unit normal, at a vertex, of the quadric h = s·d + ½ d·C d over the plane of a first normal that comes
+/// closest to the points around. Where these do not tell a slope from a curvature, as on one row of faces
+/// between two edges, it is taken for a slope: the surface is then straight across the row.
+/// @param points  from the vertex on [m]
+Point normal_of_quadric(const Point& first, const std::vector<Point>& points) {
+  // Axes in the plane: the first one is as far from the normal as a coordinate axis can be.
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::abs(first[i]) < std::abs(first[axis])) axis = i;
+  Point e1{};
+  e1[axis] = 1;
+  for (std::size_t i = 0; i < 3; ++i) e1[i] -= first[axis] * first[i];
+  e1 = unit(e1).value_or(Point{});
+  const Point e2 = cross(first, e1);
+  double square = 0;
+  for (const Point& d : points) square += dot(d, d) / static_cast<double>(points.size());
+  if (!(square > 0)) return first;
+  const double length = std::sqrt(square);
+  // Least squares of slopes and curvatures without units; points count by the inverse of their distance.
+  std::array<std::array<double, 5>, 5> matrix{};
+  std::array<double, 5> right{};
+  for (const Point& d : points) {
+    const double a = dot(d, e1) / length, b = dot(d, e2) / length, h = dot(d, first) / length;
+    const std::array<double, 5> row{a, b, a * a / 2, a * b, b * b / 2};
+    const double weight = square / dot(d, d);
+    for (std::size_t i = 0; i < 5; ++i) {
+      right[i] += weight * row[i] * h;
+      for (std::size_t j = 0; j < 5; ++j) matrix[i][j] += weight * row[i] * row[j];
+    }
+  }
+  constexpr double k_straight = 1e-3;
+  for (std::size_t i = 2; i < 5; ++i) matrix[i][i] += k_straight;
+  if (!solve(matrix, right)) return first;
+  Point n = first;
+  for (std::size_t i = 0; i < 3; ++i) n[i] -= right[0] * e1[i] + right[1] * e2[i];
+  return unit(n).value_or(first);
+}
+
 /// A face of the skin by its vertices, in the order of the numbers of faces.
 struct SkinFacet {
   std::array<Index, 4> vertices{};
@@ -180,23 +244,40 @@ class Skin {
     return true;
   }
 
+  /// The normal of each fan at a vertex of this process: that of the quadric which fits its points.
   void sum_normals() {
     if (mesh_.dimension != 3) return;
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      const SkinFacet& facet = facets_[f];
-      for (int k = 0; k < facet.n; ++k) {
-        const Index node = facet.vertices[at(k)];
-        if (!is_mine(node)) continue;
-        const Point next = minus(x(facet.vertices[at((k + 1) % facet.n)]), x(node)),
-                    last = minus(x(facet.vertices[at((k + facet.n - 1) % facet.n)]), x(node));
-        const double weight = 1 / (dot(next, next) * dot(last, last));
+    // Corners come in the order of the numbers of their faces.
+    std::unordered_map<std::size_t, std::vector<std::size_t>> corners;
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (int k = 0; k < facets_[f].n; ++k)
+        if (is_mine(facets_[f].vertices[at(k)]))
+          corners[fans_.find(4 * f + at(k)).first].push_back(4 * f + at(k));
+    for (const auto& [fan, of_fan] : corners) {
+      const Point& centre = x(vertex(of_fan.front()));
+      Point sum{};
+      std::vector<Index> around;
+      const int first_sign = fans_.find(of_fan.front()).second;
+      for (const std::size_t c : of_fan) {
+        const SkinFacet& facet = facets_[c / 4];
+        const int k = static_cast<int>(c % 4);
+        const Point next = minus(x(facet.vertices[at((k + 1) % facet.n)]), centre),
+                    last = minus(x(facet.vertices[at((k + facet.n - 1) % facet.n)]), centre);
+        const double weight = first_sign * fans_.find(c).second / (dot(next, next) * dot(last, last));
         const Point n = cross(next, last);
-        const auto [fan, sign] = fans_.find(4 * f + at(k));
-        Point& sum = normal_of_fan_[fan];
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += sign * weight * n[i];
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * n[i];
+        for (int j = 1; j < facet.n; ++j) around.push_back(facet.vertices[at((k + j) % facet.n)]);
       }
+      std::vector<Point> points;
+      for (std::size_t i = 0; i < around.size(); ++i)
+        if (std::find(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(i), around[i]) ==
+            around.begin() + static_cast<std::ptrdiff_t>(i))
+          points.push_back(minus(x(around[i]), centre));
+      if (const std::optional<Point> n = unit(sum)) normal_of_fan_[fan] = normal_of_quadric(*n, points);
     }
   }
+
+  Index vertex(std::size_t corner) const { return facets_[corner / 4].vertices[corner % 4]; }
 
   /// At the vertex a of an edge, towards b.
   std::optional<Point> tangent(std::size_t edge, Index a, Index b) const {
@@ -204,11 +285,11 @@ class Skin {
     if (!edges_[edge].is_line) {
       // The chord's part in the tangent plane.
       const auto fan = fans_.find(corner(sides_[first_side_[edge]].face, a)).first;
-      const Point& n = normal_of_fan_.at(fan);
-      const double nn = dot(n, n);
-      if (!(nn > 0)) return std::nullopt;
+      const auto normal = normal_of_fan_.find(fan);
+      if (normal == normal_of_fan_.end()) return std::nullopt;
+      const Point& n = normal->second;
       Point t = chord;
-      for (std::size_t i = 0; i < 3; ++i) t[i] -= dot(chord, n) / nn * n[i];
+      for (std::size_t i = 0; i < 3; ++i) t[i] -= dot(chord, n) * n[i];
       return unit(t);
     }
     // The line goes on through the vertex, or ends there.
