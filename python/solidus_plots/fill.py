@@ -329,7 +329,12 @@ def run(options):
 
 def end_with_the_program():
     """A signal that ends the program, or its end for another reason, ends the flow too: it must not write into a folder later on."""
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+
+    def stop(*_):
+        # Not by SIGINT, which shells turn off for what they start in the background.
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, stop)
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 

@@ -8,10 +8,10 @@ time between the moments (a semi-Lagrangian step). It takes no part in the flow.
 
 import numpy as np
 
-PART = 0.4  # of a cube that a point moves in one step, at most
-MOST_STEPS = 60  # between two moments
+PART = 0.8  # of a cube that a point moves in one step, at most
+MOST_STEPS = 30  # between two moments
 SOME = 0.05  # share of metal from which a cube has an age
-CORNERS = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+CORNERS = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
 ROUNDS = 2  # cubes by which ages reach into the air ahead of the front
 
 
@@ -40,15 +40,18 @@ class Ages:
         NaN where all of them have none."""
         base = np.floor(places - 0.5).astype(int)
         part = places - 0.5 - base
-        total, weight = 0.0, np.zeros(len(places))
-        for corner in CORNERS:
-            number = grid[tuple((base + corner).T)]
-            w = np.prod(np.where(corner == 1, part, 1 - part), axis=1) * weights[number]
-            total = total + (w[:, None] if values.ndim == 2 else w) * values[number]
+        x, y, z = (np.stack([1 - part[:, d], part[:, d]]) for d in range(3))
+        flat = grid.ravel()
+        first = (base[:, 0] * grid.shape[1] + base[:, 1]) * grid.shape[2] + base[:, 2]
+        total, weight = np.zeros((len(places), *values.shape[1:])), np.zeros(len(places))
+        for i, j, k in CORNERS:
+            number = flat[first + (i * grid.shape[1] + j) * grid.shape[2] + k]
+            w = x[i] * y[j] * z[k] * weights[number]
+            total += (w[:, None] if values.ndim == 2 else w) * values[number]
             weight += w
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return np.where(weight[:, None] > 1e-9, total / weight[:, None], np.nan) if values.ndim == 2 else \
-                np.where(weight > 1e-9, total / weight, np.nan)
+        none = weight <= 1e-9
+        weight[none] = np.nan
+        return total / (weight[:, None] if values.ndim == 2 else weight)
 
     def _padded(self, values):
         return np.concatenate([values, np.zeros((1, *values.shape[1:]))])

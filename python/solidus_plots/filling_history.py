@@ -11,7 +11,7 @@ from solidus_plots.filling_view import View
 
 FRONT_ROUNDS = 50  # of handing volume to cubes that hold air, until each is full at most
 BOTH = 0.1  # share of melt and of frozen metal from which a cube is mush
-MOST_MUSH = 0.95  # part of the mush whose temperature is looked at: single cubes at a front are not
+NEAR = 5.0  # that mush should be to its freezing temperature [K]
 STATE = "state.npz"  # of a filling that has not come to its end
 
 
@@ -30,6 +30,20 @@ def full_volume(metal, wanted):
     return share
 
 
+def with_heat_of(before, after, temperature):
+    """Temperatures of cubes after metal has been handed from one to another [K]: it takes its heat along, as one that is mixed with what is
+    there. before, after: shares of metal [cube]. Frozen metal stays where it is. Where more metal comes than leaves, the rest has the mean
+    temperature of all metal."""
+    taken, given = (before - after).clip(0), (after - before).clip(0)
+    if given.sum() <= 0:
+        return temperature
+    rest = max(given.sum() - taken.sum(), 0.0)
+    mean = np.average(temperature, weights=before.clip(0)) if before.clip(0).any() else temperature.mean()
+    hot = ((taken * temperature).sum() + rest * mean) / (taken.sum() + rest)
+    share = np.divide(given, after, out=np.zeros_like(after), where=after > 0)
+    return temperature + share * (hot - temperature)
+
+
 class History:
     def __init__(self, folder, mould, melt, made_of):
         n = len(mould.cavity.cubes.cells)
@@ -45,7 +59,7 @@ class History:
         cavity, gate = mould.cavity, mould.gate
         self._ages = Ages(cavity.cubes, cavity.faces[gate.faces], np.round(gate.direction))
         self.view = View(cavity.cubes)
-        self.mush = 0.0  # how far mush was from its freezing temperature at most [K]
+        self.mush = [0, 0]  # cubes with melt and frozen metal at all moments, and those that were too far from its freezing temperature
 
     # --- what the flow has computed --------------------------------------------------------------------------
 
@@ -100,10 +114,10 @@ class History:
                           float(temperature[metal > 0.5].min()) if (metal > 0.5).any() else np.nan])
 
     def _look_at_mush(self, temperature, melt, solid):
-        """Cubes that hold both melt and frozen metal should have the temperature at which it freezes."""
+        """Adds cubes that hold both melt and frozen metal, and those whose temperature is not that at which it freezes."""
         both = (melt > BOTH) & (solid > BOTH)
-        if both.any():
-            self.mush = max(self.mush, float(np.quantile(np.abs(temperature[both] - self._melt.freezing), MOST_MUSH)))
+        far = both & (np.abs(temperature - self._melt.freezing) > NEAR)
+        self.mush = [self.mush[0] + int(both.sum()), self.mush[1] + int(far.sum())]
 
     def _correct_volume(self, run):
         """The solver scales its three shares to a sum of one in every step, by which metal comes and goes at the front, and a cube from
@@ -114,6 +128,8 @@ class History:
         # What goes from one cube to another counts once, and what the solver has lost or gained.
         change = self.metal - self._raw
         self.corrected += float(max(change.clip(0).sum(), (-change).clip(0).sum())) / n
+        self.temperature = with_heat_of(self._raw, self.metal, self.temperature)
+        run.change_cells(self.name, "T", self.temperature)
         for field, values in (("gas", 1 - self.metal), ("melt", self.metal - self.solid), ("solid", self.solid)):
             run.change_cells(self.name, f"alpha.{field}", values)
         self.full = float(self.metal.mean())

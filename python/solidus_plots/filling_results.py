@@ -6,13 +6,14 @@ import numpy as np
 
 from solidus_plots import filling_film, filling_picture, filling_view
 from solidus_plots.compare import write_csv
+from solidus_plots.filling_history import NEAR
 from solidus_plots.filling_mesh import HEADER, SIDES, Cubes, corners_of, write_mesh
 from solidus_plots.vtu import Grid
 from solidus_plots.vtu_writer import write_grid
 
 GOOD_SPEED = 0.5  # [m/s], J. Campbell, Castings, 2nd ed. 2003, section 2.1
 MUCH_CORRECTED = 0.05  # of the cavity, beyond which what was set right at fronts is warned of
-MUSH = 5.0  # that mush may be off its freezing temperature [K]
+MANY = 0.1  # of cubes of freezing metal that are told of where they are off its freezing temperature
 NEARLY = 0.93  # of the cavity, from which on it counts as full when the time of filling is over
 MOST_WALLS = 4000  # entries of the heat of the moulds
 CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))  # VTK's hexahedron
@@ -225,9 +226,10 @@ def answers(mould, history, ended, balance, places):
                      "rate help")
     lines.append(f"heat that the metal has lost {balance['lost']:.5g} J, that walls have taken {balance['walls']:.5g} J: a difference of "
                  f"{100 * (balance['lost'] - balance['walls']) / balance['brought']:+.2f} % of the heat that came above solid metal")
-    if history.mush > 0:
-        lines.append(f"metal that froze was within {history.mush:.2g} K of the temperature at which it is half solid"
-                     + (f", which is more than {MUSH:.0f} K: its heat is right, its temperatures are not" if history.mush > MUSH else ""))
+    mush, far = history.mush
+    if mush > 0:
+        lines.append(f"freezing metal was within {NEAR:.0f} K of the temperature at which it is half solid in {100 * (1 - far / mush):.0f} % of its cubes and "
+                     "moments" + ("; the others are at fronts, where temperatures are rough" if far > MANY * mush else ""))
     return lines
 
 

@@ -1,8 +1,10 @@
 """Cubes of a cavity, gates, vents, walls and the start of freezing, without a flow: `solidus fill`."""
 
+import ctypes
 import json
 from math import exp, sqrt
 from pathlib import Path
+import signal
 import tempfile
 from types import SimpleNamespace
 import unittest
@@ -14,7 +16,7 @@ from solidus_plots import fill, filling_film, filling_flow, filling_gates, filli
 from solidus_plots.filling_age import Ages
 from solidus_plots.filling_cavity import cavity_of
 from solidus_plots.filling_drive import Drive, Tilt
-from solidus_plots.filling_history import full_volume
+from solidus_plots.filling_history import full_volume, with_heat_of
 from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
 from solidus_plots.filling_results import places_of, start_of, state_at
 from solidus_plots.filling_view import View, to_bytes
@@ -365,6 +367,20 @@ class Shown(unittest.TestCase):
         self.assertEqual(np.round(places[1]["at"], 6).tolist(), [0.025, 0.005, 0.005])
 
 
+class Signals(unittest.TestCase):
+    def test_a_filling_in_the_background_of_a_script_is_stopped_too(self):
+        """Shells turn SIGINT off for what they start with &."""
+        before = [signal.signal(number, signal.SIG_IGN) for number in (signal.SIGINT, signal.SIGTERM)]
+        try:
+            fill.end_with_the_program()
+            with self.assertRaises(KeyboardInterrupt):
+                signal.raise_signal(signal.SIGTERM)
+        finally:
+            ctypes.CDLL(None).prctl(fill.PR_SET_PDEATHSIG, 0)
+            for number, handler in zip((signal.SIGINT, signal.SIGTERM), before):
+                signal.signal(number, handler)
+
+
 class Moments(unittest.TestCase):
     def test_moments_have_names_that_openfoam_keeps(self):
         for interval, whole in ((0.0320135754323, 2.6), (3.3e-4, 0.033), (4.123456789, 412.3)):
@@ -391,6 +407,17 @@ class Volumes(unittest.TestCase):
             self.assertAlmostEqual(share.sum(), wanted, delta=1e-11)
             self.assertEqual(share[[0, 1, 4, 5]].tolist(), [1, 1, 0, 0])
             self.assertTrue(((share >= 0) & (share <= 1)).all())
+
+    def test_metal_that_is_handed_on_takes_its_heat_along(self):
+        before, after = np.array([1.3, 0.4, 1.0]), np.array([1.0, 0.7, 1.0])
+        temperature = np.array([900.0, 600.0, 700.0])
+        mixed = with_heat_of(before, after, temperature)
+        self.assertAlmostEqual((before * temperature).sum(), (after * mixed).sum(), delta=1e-9)
+        self.assertEqual(mixed[[0, 2]].tolist(), [900, 700])
+        # What the solver has lost has the mean temperature.
+        grown = with_heat_of(np.array([1.0, 0.5]), np.array([1.0, 0.8]), np.array([900.0, 600.0]))
+        self.assertAlmostEqual(grown[1], (0.5 * 600 + 0.3 * 800) / 0.8, delta=1e-9)
+        self.assertEqual(with_heat_of(before, before, temperature).tolist(), temperature.tolist())
 
     def test_without_a_front_the_volume_stays(self):
         self.assertEqual(full_volume(np.array([1.0, 0.0]), 1.5).tolist(), [1, 0])
