@@ -109,9 +109,9 @@ def worst_places(points, places, deviation, size):
 def map_values(surface, points, deviation, size):
     """Deviations at the points of the shape: of the nearest measured point, nan where none is near."""
     cloud = Surface(points, np.repeat(np.arange(len(points))[:, None], 3, axis=1))
-    near = cloud.nearest(surface.points)
-    spacing = np.median(np.abs(near.distance))
-    return np.where(np.abs(near.distance) < max(0.05 * size, 4 * spacing), deviation[near.triangle], np.nan)
+    spacing = np.sqrt(surface.areas.sum() / len(points))  # were they spread evenly over the shape
+    near = cloud.nearest(surface.points, max(0.05 * size, 2 * spacing))
+    return np.where(np.isfinite(near.distance), deviation[near.triangle], np.nan)
 
 
 def draw_profiles(surface, points, deviation, worst, folder):

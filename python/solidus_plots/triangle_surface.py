@@ -13,6 +13,7 @@ from solidus_plots.vtu import ResultError
 
 LEAF = 8  # triangles in the last boxes
 CHUNK = 20_000  # points that go down the tree together
+MOST_PAIRS = 100_000  # of a point and a box, of up to eight triangles each, that are held at a time
 TINY = 1e-12
 
 
@@ -89,17 +90,18 @@ class Surface:
         total = np.stack([np.bincount(side, own[:, axis]) for axis in range(3)], axis=1)
         return total[side].reshape(-1, 3, 3)
 
-    def nearest(self, places):
-        """The nearest places on the surface."""
-        parts = [self._nearest(places[start:start + CHUNK]) for start in range(0, len(places), CHUNK)]
+    def nearest(self, places, reach=np.inf):
+        """The nearest places on the surface; of a point from which it is farther than `reach` the distance is infinite."""
+        parts = [self._nearest(places[start:start + CHUNK], reach) for start in range(0, len(places), CHUNK)]
         if not parts:
             return Nearest(np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0))
         return Nearest(*(np.concatenate([getattr(part, name) for part in parts]) for name in Nearest.__dataclass_fields__))
 
-    def _nearest(self, places):
-        """Pairs of a point and a box go down level by level; a box farther off than another is for sure is dropped."""
+    def _nearest(self, places, reach):
+        """Pairs of a point and a box go down level by level; a box farther off than another is for sure is dropped. Points that all boxes are
+        equally far from, as the centre of a ball is, have many pairs: then the points go in halves."""
         point, box = np.arange(len(places)), np.zeros(len(places), int)
-        bound = (np.sqrt(self._bound(places)) + TINY * np.abs(self._corners).max()) ** 2  # with room for rounding
+        bound = (np.minimum(np.sqrt(self._bound(places)), reach) + TINY * np.abs(self._corners).max()) ** 2  # with room for rounding
         for level, (low, high) in enumerate(self._boxes):
             if level:
                 point, box = np.repeat(point, 2), (2 * box[:, None] + [0, 1]).ravel()
@@ -107,6 +109,9 @@ class Surface:
             least = np.einsum("ij,ij->i", outside, outside)
             kept = least <= bound[point]
             point, box = point[kept], box[kept]
+            if len(point) > MOST_PAIRS and len(places) > 1:
+                halves = [self._nearest(part, reach) for part in np.array_split(places, 2)]
+                return Nearest(*(np.concatenate([getattr(half, name) for half in halves]) for name in Nearest.__dataclass_fields__))
         count = self._bounds[box + 1] - self._bounds[box]
         within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
         triangle = self._order[np.repeat(self._bounds[box], count) + within]
@@ -115,8 +120,15 @@ class Surface:
         found = np.einsum("pc,pci->pi", weights, self._corners[triangle])
         square = np.einsum("ij,ij->i", places[point] - found, places[point] - found)
         order = np.lexsort((triangle, square, point))
-        first = order[np.unique(point[order], return_index=True)[1]]
-        return self._signed(places, triangle[first], weights[first], found[first], np.sqrt(square[first]))
+        reached, first = np.unique(point[order], return_index=True)
+        first = order[first]
+        near = self._signed(places[reached], triangle[first], weights[first], found[first], np.sqrt(square[first]))
+        if len(reached) == len(places):
+            return near
+        all_of = Nearest(np.zeros(len(places), int), np.zeros((len(places), 3)), np.full((len(places), 3), np.nan), np.full(len(places), np.inf))
+        for name in Nearest.__dataclass_fields__:
+            getattr(all_of, name)[reached] = getattr(near, name)
+        return all_of
 
     def _bound(self, places):
         """The square of a distance that is not less than the least one: to the triangles in the box into which each point goes by going to

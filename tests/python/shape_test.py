@@ -4,6 +4,7 @@ from argparse import Namespace
 import json
 from pathlib import Path
 import tempfile
+import tracemalloc
 import unittest
 
 from blocks import box, everything
@@ -43,6 +44,22 @@ class NearestPlaces(unittest.TestCase):
         found = surface.nearest(places)
         np.testing.assert_allclose(found.distance, np.where(within > 0, -within, outside), rtol=0, atol=1e-15)
         np.testing.assert_allclose(found.of(surface.points, surface.triangles), found.place, rtol=0, atol=1e-15)
+
+    def test_points_that_are_equally_far_from_everything_take_no_more_memory_and_what_is_beyond_a_reach_is_not_looked_for(self):
+        # Points of a ball as a cloud, looked at from around its centre, from which all of them are as far: 1.8 million pairs, a gigabyte at once.
+        ball = np.random.default_rng(3).normal(size=(30000, 3))
+        ball *= 0.04 / np.linalg.norm(ball, axis=1)[:, None]
+        cloud = Surface(ball, np.repeat(np.arange(len(ball))[:, None], 3, axis=1))
+        centre = np.random.default_rng(4).normal(size=(3000, 3)) * 1e-9
+        tracemalloc.start()
+        near = cloud.nearest(centre[:60])
+        most = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        exact = np.linalg.norm(ball[None] - centre[:60, None], axis=2).min(axis=1)
+        np.testing.assert_allclose(np.abs(near.distance), exact, rtol=1e-12)
+        far = cloud.nearest(np.concatenate([centre, ball[:5] * 1.01]), reach=0.03)
+        self.assertTrue(np.isinf(far.distance[:-5]).all() and (np.abs(far.distance[-5:]) < 4.1e-4).all())
+        self.assertLess(most, 6e8)
 
     def test_places_on_corners_edges_and_triangles_are_found_as_well_as_none(self):
         surface = block((2, 2, 2))

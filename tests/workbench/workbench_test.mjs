@@ -71,6 +71,13 @@ async function ofACase(server, desk) {
   const [x, y] = await desk.page.run("(() => { const { picture } = solidus.stage, b = picture.canvas.getBoundingClientRect(), p = picture.project([0.03, 0.02, 0.015]); return [b.left + p[0], b.top + p[1], b.left + 30]; })()");
   const seen = pixels(await desk.page.screenshot()), far = (p, q) => Math.hypot(...p.map((v, i) => v - q[i]));
   check("the body is drawn on the ground of the picture", far(seen.rgb(Math.round(x), Math.round(y)), seen.rgb(Math.round(x), 130)) > 40);
+  // The skin of a block of 4 x 3 x 3 elements has 66 quadrilaterals of two triangles, with 198 edges; 40 of them are on borders of faces.
+  const drawn = () => desk.page.run("solidus.stage.picture.things.children.filter((c) => c.isLineSegments).reduce((sum, c) => sum + c.geometry.index.count / 2, 0)");
+  const borders = await drawn();
+  await desk.click("#elements");
+  check("the elements can be seen", await drawn() === 198 && await desk.page.run("document.querySelector('#elements').ariaPressed") === "true", { borders, now: await drawn() });
+  await desk.click("#elements");
+  check("and not", await drawn() === borders && borders === 40, borders);
   await desk.click("#to-keys");
   await desk.click("#section-time");
   await desk.type("#key-time-end", "60 s");

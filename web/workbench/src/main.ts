@@ -215,7 +215,12 @@ class Bench implements Desk {
     byId("redo").addEventListener("click", () => void this.ask("redo"));
     byId("version").textContent = `Solidus ${this.about.version}`;
     byId("fit").addEventListener("click", () => this.stage.picture.fit());
-    const keys: [string, string][] = [["F", "fit the picture"], ["1 … 6", "look along an axis"], ["7", "look from a corner"], ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["T", "dark, light"], ["Esc", "take marks away"], ["?", "this list"]];
+    byId("elements").addEventListener("click", () => {
+      const on = this.stage.picture.toggleElements();
+      byId("elements").setAttribute("aria-pressed", String(on));
+      byId("elements").className = on ? "on" : "";
+    });
+    const keys: [string, string][] = [["F", "fit the picture"], ["1 … 6", "look along an axis"], ["7", "look from a corner"], ["M", "edges of elements"], ["Ctrl Z", "undo"], ["Ctrl Y", "do again"], ["T", "dark, light"], ["Esc", "take marks away"], ["?", "this list"]];
     byId("help").addEventListener("click", () => {
       const dialog = byId<HTMLDialogElement>("dialog");
       dialog.replaceChildren(h("h3", {}, "Keys"), h("dl", { class: "keys" }, ...keys.flatMap(([key, text]) => [h("dt", {}, ...key.split(" ").map((k) => h("kbd", {}, k))), h("dd", {}, text)])),
@@ -269,6 +274,7 @@ class Bench implements Desk {
       }
       if (views[key]) this.stage.picture.look(views[key]);
       else if (key === "f") this.stage.picture.fit();
+      else if (key === "m") byId("elements").click();
       else if (key === "t") byId("theme").click();
       else if (key === "?") byId("help").click();
       else if (key === "escape") this.stage.clear();

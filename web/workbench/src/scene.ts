@@ -59,7 +59,9 @@ export class Picture {
   private readonly rough = new Group();
   private roughOf: (BufferGeometry | undefined)[] = [];
   /** What the graphics card keeps of each body, however it is dressed. */
-  private skins: { surface: BufferGeometry; lines: BufferGeometry }[] = [];
+  private skins: { surface: BufferGeometry; lines: BufferGeometry; edges: BufferGeometry }[] = [];
+  /** Whether every edge of an element is drawn, or the borders of faces alone. */
+  private elements = false;
   private readonly placed = new Group();
   private readonly pointed = new Group();
   private wanted = 0;
@@ -93,17 +95,21 @@ export class Picture {
     this.shown = bodies.map(() => "shown");
     empty(this.pointed);
     for (const geometry of this.roughOf) geometry?.dispose();
-    for (const { surface, lines } of this.skins) for (const geometry of [surface, lines]) geometry.dispose();
+    for (const { surface, lines, edges } of this.skins) for (const geometry of [surface, lines, edges]) geometry.dispose();
     this.roughOf = bodies.map((body) => {
       if (body.faces.length < LARGE) return undefined;
       const { position, normal, triangles } = coarse(body, 72);
       return surfaceOf(position, normal, triangles);
     });
     this.skins = bodies.map((body) => {
-      const surface = surfaceOf(body.position, body.shape.normal, body.shape.triangles), lines = new BufferGeometry();
-      lines.setAttribute("position", surface.getAttribute("position"));
-      lines.setIndex(new BufferAttribute(body.lines, 1));
-      return { surface, lines };
+      const surface = surfaceOf(body.position, body.shape.normal, body.shape.triangles);
+      const [lines, edges] = [body.lines, body.shape.edges].map((pairs) => {
+        const geometry = new BufferGeometry();
+        geometry.setAttribute("position", surface.getAttribute("position"));
+        geometry.setIndex(new BufferAttribute(pairs, 1));
+        return geometry;
+      });
+      return { surface, lines, edges };
     });
     this.painter?.forget();
     this.build();
@@ -129,12 +135,19 @@ export class Picture {
       if (this.shown[b] === "hidden") return;
       const ghost = this.shown[b] === "ghost", lit = this.lit.has(body.name);
       const colour = lit ? ACCENT : (ROLE_COLOURS[this.roles[b]] ?? OTHER);
-      const { surface, lines } = this.skins[b], look = paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1);
+      const { surface, lines, edges } = this.skins[b], look = paint(colour, ghost ? (lit ? 0.4 : 0.13) : 1);
       this.things.add(plain(new Mesh(surface, look)));
       this.rough.add(plain(new Mesh(this.roughOf[b] ?? surface, look)));
-      this.things.add(plain(new LineSegments(lines, paint(dark ? "#0c0f13" : "#2a3038", ghost ? 0.25 : 0.6, false))));
+      this.things.add(plain(new LineSegments(this.elements ? edges : lines, paint(dark ? "#0c0f13" : "#2a3038", ghost ? 0.25 : 0.6, false))));
     });
     this.request();
+  }
+
+  /** Draws every edge of an element, or no longer; whether it does now. */
+  toggleElements(): boolean {
+    this.elements = !this.elements;
+    this.build();
+    return this.elements;
   }
 
   /** Drawn anew in the colours of the theme. */
