@@ -63,6 +63,7 @@ export class Picture {
   /** Whether every edge of an element is drawn, or the borders of faces alone. */
   private elements = false;
   private readonly placed = new Group();
+  private placedOf = "";
   private readonly pointed = new Group();
   private wanted = 0;
   private moving = false;
@@ -157,8 +158,10 @@ export class Picture {
 
   /** What is placed and not yet in the mesh: risers, chills, probes and the gate. */
   place(choices: Choices | null): void {
+    const size = this.size(), key = JSON.stringify([choices, this.box()]);
+    if (key === this.placedOf) return; // news of other things ask for no picture
+    this.placedOf = key;
     empty(this.placed);
-    const size = this.size();
     const add = (mesh: Mesh, at: Place) => {
       mesh.position.set(...at);
       this.placed.add(plain(mesh));
@@ -269,15 +272,16 @@ export class Picture {
     if (!this.painter) return;
     this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight);
     // A large skin that moves is drawn coarsely unless the machine has shown that it is quick enough, and whole as soon as it rests.
-    const draft = this.moving && !this.painter.quick && this.roughOf.some((geometry) => geometry);
+    const moving = this.moving || this.held, draft = moving && !this.painter.quick && this.roughOf.some((geometry) => geometry);
     this.things.visible = !draft;
     this.rough.visible = draft;
-    this.painter.paint(this.scene, this.camera.three, this.moving, () => this.held || this.request(), draft);
+    this.painter.paint(this.scene, this.camera.three, moving, () => this.held || this.request(), draft);
     this.drawn();
   }
 
   /** Pixels from the upper left corner of a place. */
   project(at: Place): [number, number] {
+    this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight); // the camera may have moved since the last picture
     const v = new Vector3(...at).project(this.camera.three);
     return [((v.x + 1) / 2) * this.canvas.clientWidth, ((1 - v.y) / 2) * this.canvas.clientHeight];
   }

@@ -170,7 +170,7 @@ export class Stage {
       const single = down.size === 1;
       down.delete(e.pointerId);
       this.picture.held = down.size > 0;
-      if (moved > 0) this.picture.request(this.picture.held);
+      this.picture.request(this.picture.held);
       if (e.type === "pointerup" && single && moved <= 4 && e.button === 0) this.clicked(where(e));
     };
     canvas.addEventListener("pointerup", up);
