@@ -105,6 +105,13 @@ def values_in(text, count):
     return np.array(text[head.end():text.index(")", head.end())].split(), float)
 
 
+def rewrite(file, text):
+    """Replaces a file as a whole: a filling that is stopped in between goes on from it."""
+    part = file.with_name(f".{file.name}.part")
+    part.write_text(text)
+    part.replace(file)
+
+
 def patch_block(text, name):
     """Where the entries of a patch begin and end in a field."""
     start = re.search(rf"\n    {re.escape(name)}\n    \{{\n", text)
@@ -200,7 +207,7 @@ class FoamRun:
             place = patch_block(text, patch)
             if place is not None:
                 faces = part.patches.get(patch, np.zeros(0, int))
-                file.write_text(f"{text[:place[0]]}        {entries(faces)}{text[place[1]:]}")
+                rewrite(file, f"{text[:place[0]]}        {entries(faces)}{text[place[1]:]}")
 
     def change_cells(self, name, field, values):
         """Replaces the values of a field in all cells [cell]."""
@@ -209,7 +216,7 @@ class FoamRun:
             text = file.read_text()
             begin, end = text.index("internalField"), text.index("boundaryField")
             numbers = "\n".join(f"{value:.10g}" for value in values[part.cells])
-            file.write_text(f"{text[:begin]}internalField nonuniform List<scalar>\n{len(part.cells)}\n(\n{numbers}\n);\n\n{text[end:]}")
+            rewrite(file, f"{text[:begin]}internalField nonuniform List<scalar>\n{len(part.cells)}\n(\n{numbers}\n);\n\n{text[end:]}")
 
     def forget(self, name):
         """Removes the fields of a time."""

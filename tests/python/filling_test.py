@@ -8,6 +8,7 @@ import signal
 import tempfile
 from types import SimpleNamespace
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -190,6 +191,17 @@ class Files(unittest.TestCase):
             run.change_cells("1", "T", np.array([1.5, 2.5, 3.5]))
             self.assertEqual(run.read("1", "T").tolist(), [1.5, 2.5, 3.5])
             self.assertIn("type x;", (run.parts[0].folder / "1/T").read_text())
+
+
+    def test_a_file_that_is_rewritten_is_never_half_a_file(self):
+        with tempfile.TemporaryDirectory() as name:
+            file = Path(name) / "U"
+            file.write_text("whole")
+            with mock.patch.object(Path, "replace", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+                filling_flow.rewrite(file, "other")
+            self.assertEqual(file.read_text(), "whole")
+            filling_flow.rewrite(file, "other")
+            self.assertEqual(file.read_text(), "other")
 
 
 class Vents(unittest.TestCase):
