@@ -80,15 +80,16 @@ def answers_of(summary):
 
 
 def _strength_of(summary, parts):
-    """Name with unit -> number: the strength of each part by the tables of its card."""
+    """Name with unit -> number: the properties of each part by the tables of its card, in the units that their fields are read in."""
     criteria, found = summary.get("criteria", {}), {}
     for part in parts:
-        for key, text, unit, factor in (("tensile_strength", "tensile strength", "MPa", 1e-6), ("elongation", "elongation", "%", 100.0),
-                                        ("hardness", "hardness", "1", 1.0), ("grain_size", "grain size", "mm", 1e3)):
-            exact = {"MPa": "[Pa]", "mm": "[m]"}.get(unit, "")
-            if f"{key}_in_{part}_min{exact}" in criteria:
-                found[f"{part}: least {text}[{unit}]"] = factor * criteria[f"{key}_in_{part}_min{exact}"]
-                found[f"{part}: mean {text}[{unit}]"] = factor * criteria[f"{key}_in_{part}_mean{exact}"]
+        for field in fields.known():
+            exact = "" if field.unit == "1" else f"[{field.unit}]"
+            for word, suffix in (("least", "min"), ("mean", "mean")):
+                key = f"{field.name}_in_{part}_{suffix}{exact}"
+                if key in criteria:
+                    text = field.label.removesuffix(" (by table)").lower()
+                    found[f"{part}: {word} {text}[{field.shown}]"] = field.factor * criteria[key]
     return found
 
 
