@@ -13,6 +13,7 @@ from solidus_plots.vtu_writer import write_grid
 
 GOOD_SPEED = 0.5  # [m/s], J. Campbell, Castings, 2nd ed. 2003, section 2.1
 MUCH_CORRECTED = 0.05  # of the cavity, beyond which what was set right at fronts is warned of
+MUCH_HEAT = 0.01  # of the heat that came, beyond which the balance of heat is warned of
 MANY = 0.1  # of cubes of freezing metal that are told of where they are off its freezing temperature
 NEARLY = 0.93  # of the cavity, from which on it counts as full when the time of filling is over
 MOST_WALLS = 4000  # entries of the heat of the moulds
@@ -226,6 +227,9 @@ def answers(mould, history, ended, balance, places):
                      "rate help")
     lines.append(f"heat that the metal has lost {balance['lost']:.5g} J, that walls have taken {balance['walls']:.5g} J: a difference of "
                  f"{100 * (balance['lost'] - balance['walls']) / balance['brought']:+.2f} % of the heat that came above solid metal")
+    if abs(balance["lost"] - balance["walls"]) > MUCH_HEAT * balance["brought"]:
+        lines.append(f"that is more than {100 * MUCH_HEAT:.0f} %: where metal freezes at the front the solver loses heat, and the temperatures there are too "
+                     "low; more cells, hotter metal or a faster filling help")
     mush, far = history.mush
     if mush > 0:
         lines.append(f"freezing metal was within {NEAR:.0f} K of the temperature at which it is half solid in {100 * (1 - far / mush):.0f} % of its cubes and "
