@@ -142,6 +142,7 @@ const Section<CaseSpec>& case_keys() {
     s.sections("cycle", &CaseSpec::cycles, cycle_keys());
     s.sections("body", &CaseSpec::bodies, body_keys());
     s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
+    s.sections("channel", &CaseSpec::channels, channel_keys());
     s.sections("source", &CaseSpec::sources, source_keys());
     s.sections("deposition", &CaseSpec::depositions, deposition_keys());
     s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());
@@ -156,6 +157,7 @@ const Section<CaseSpec>& case_keys() {
     s.sections("probe", &CaseSpec::probes, probe_keys());
     s.sections("profile", &CaseSpec::profiles, profile_keys());
     s.section("criteria", &CaseSpec::criteria, criteria_keys());
+    s.sections("die_life", &CaseSpec::die_lives, die_life_keys());
     s.section("feeding", &CaseSpec::feeding, feeding_keys());
     s.section("gas", &CaseSpec::gas, gas_keys());
     s.section("filling", &CaseSpec::filling, filling_keys());

@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "cases/channel_spec.hpp"
 #include "cases/feeder_spec.hpp"
 #include "cases/feeding_spec.hpp"
 #include "cases/filling_spec.hpp"
 #include "cases/friction_spec.hpp"
+#include "cases/life_spec.hpp"
 #include "cases/load_spec.hpp"
 #include "cases/travel_spec.hpp"
 #include "cases/variation.hpp"
@@ -389,6 +391,7 @@ struct CaseSpec {
   std::vector<CycleSpec> cycles;
   std::vector<BodySpec> bodies;
   std::vector<ThermalConditionSpec> thermal_conditions;
+  std::vector<ChannelSpec> channels;        ///< that cool
   std::vector<SourceSpec> sources;          ///< that travel
   std::vector<DepositionSpec> depositions;  ///< bodies that grow
   std::vector<MechanicalConditionSpec> mechanical_conditions;
@@ -403,6 +406,7 @@ struct CaseSpec {
   std::vector<ProbeSpec> probes;
   std::vector<ProfileSpec> profiles;
   CriteriaSpec criteria;
+  std::vector<DieLifeSpec> die_lives;  ///< bodies whose fatigue is followed
   FeedingSpec feeding;
   GasSpec gas;
   std::optional<FillingSpec> filling;  ///< absent: the mould is full at the start

@@ -256,6 +256,11 @@ void check_stage_names(const CaseSpec& spec) {
       throw InputError(c.where, user + " is relative to the start of a stage, but the case has no stages",
                        "relative = false, or [[stage]] sections");
   }
+  for (const auto& c : spec.channels) {
+    const std::string user = "the channel '" + c.name + "'";
+    check(c.stages, c.where, user);
+    check_clock(c.clock, c.where, user);
+  }
   for (const auto& b : spec.bodies) check(b.stages, b.where, "the body '" + b.name + "'");
   for (const auto& c : spec.contacts) check(c.stages, c.where, "the contact '" + c.name + "'");
 }

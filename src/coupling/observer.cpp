@@ -23,6 +23,7 @@ constexpr AuditSum k_audit_sums[] = {{&EnergyAudit::stored_heat, true},
                                      {&EnergyAudit::work, true},
                                      {&EnergyAudit::unbalanced, true},
                                      {&EnergyAudit::heat_in, true},
+                                     {&EnergyAudit::to_channels, true},
                                      {&EnergyAudit::entropy_in, true},
                                      {&EnergyAudit::heat_exchanged, true},
                                      {&EnergyAudit::viscous_dissipation, true},
@@ -79,6 +80,8 @@ StepEffort& StepEffort::operator+=(const StepEffort& next) {
     for (std::size_t i = 0; i < conditions.size(); ++i) conditions[i].heat += first.conditions[i].heat;
     conditions_time += first.conditions_time;
   }
+  if (channels.size() == first.channels.size())
+    for (std::size_t i = 0; i < channels.size(); ++i) channels[i].heat += first.channels[i].heat;
   least_dissipation = std::min(least_dissipation, first.least_dissipation);
   largest_dissipation = std::max(largest_dissipation, first.largest_dissipation);
   return *this;

@@ -38,6 +38,7 @@ struct EnergyAudit {
   double work = 0;            ///< work of loads and supports on the bodies
   double unbalanced = 0;      ///< work of the forces that Newton's iteration left, a part of the defect
   double heat_in = 0;         ///< through boundaries and from sources
+  double to_channels = 0;     ///< taken up by the fluids of channels, which heat_in counts as heat that left
   double entropy_in = 0;      ///< that came with it, at the temperatures of the bodies there [J/K]
   double heat_exchanged = 0;  ///< reference of the defect: the sum of magnitudes of heat moved in the step
   double viscous_dissipation = 0;  ///< heat of the flowing melt (2.114)
@@ -109,6 +110,8 @@ struct StepEffort {
   /// came [s].
   std::vector<heat::ConditionHeat> conditions;
   double conditions_time = 0;
+  /// The fluids of the cooling channels: heat of the step, all else at its end.
+  std::vector<heat::ChannelReading> channels;
   /// The power of the conditions of a name, their mean over the step [W].
   double power_of(const std::string& condition) const;
   /// The heat that passed through other gaps than the mean ones of the step, [contact], in schemes that

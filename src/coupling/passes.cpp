@@ -137,7 +137,10 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial,
   for (const heat::ConditionHeat& condition : report.balance.conditions)
     effort.energy.heat_in += condition.heat;
   effort.energy.heat_exchanged = report.balance.exchanged;
+  effort.energy.to_channels = 0;
+  for (const heat::ChannelReading& channel : report.channels) effort.energy.to_channels += channel.heat;
   if (!pass.adiabatic) {
+    effort.channels = std::move(report.channels);
     effort.conditions = std::move(report.balance.conditions);
     effort.conditions_time = pass.dt;
   }

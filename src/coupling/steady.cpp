@@ -43,6 +43,9 @@ void conduct(const Phases& phases, const State& initial, State& steady, StepEffo
   EnergyAudit& energy = effort.energy;
   energy.heat_in = 0;
   for (const heat::ConditionHeat& condition : report.balance.conditions) energy.heat_in += condition.heat;
+  energy.to_channels = 0;
+  for (const heat::ChannelReading& channel : report.channels) energy.to_channels += channel.heat;
+  effort.channels = report.channels;
   energy.entropy_in = report.balance.entropy_in;
   energy.heat_exchanged = report.balance.exchanged;
   energy.interface = {};

@@ -10,11 +10,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "criteria/criterion.hpp"
+#include "criteria/fatigue_law.hpp"
 #include "criteria/feeding_graph.hpp"
 #include "heat/thermal_phase.hpp"
 #include "material/local_law.hpp"
@@ -39,6 +41,8 @@ struct CriterionContext {
   std::vector<std::vector<material::LocalLaw>> local_laws = {};
   /// Names of the bodies in the case, which their groups of the mesh need not have, [body].
   std::vector<std::string> names = {};
+  /// Fatigue of dies, [body]; empty: none is followed.
+  std::vector<std::optional<FatigueLaw>> fatigue = {};
 };
 
 class CriterionKind {

@@ -1,5 +1,6 @@
 /// The criteria that every program has, in the order of the reference page.
 #include "criteria/criterion_kind.hpp"
+#include "criteria/die_life.hpp"
 #include "criteria/feeding.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/gas_pores.hpp"
@@ -87,6 +88,12 @@ struct LocalPropertiesKind {
   std::unique_ptr<Criterion> make(const CriterionContext& c) const { return LocalProperties::make(c); }
 };
 
+/// Fatigue of dies that the case gives constants of.
+struct DieLifeKind {
+  static constexpr auto fields = criteria::fields::k_of_die_life;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const { return DieLife::make(c); }
+};
+
 }  // namespace
 
 std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
@@ -100,6 +107,7 @@ std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
     all.push_back(std::make_unique<CriterionKindOf<StrainKind>>());
     all.push_back(std::make_unique<CriterionKindOf<MushStrainKind>>());
     all.push_back(std::make_unique<CriterionKindOf<LocalPropertiesKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<DieLifeKind>>());
     return all;
   }();
   return kinds;

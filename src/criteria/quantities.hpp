@@ -3,11 +3,10 @@
 
 #include <array>
 
+#include "criteria/life_quantities.hpp"
 #include "quantities/quantity.hpp"
 
 namespace solidus::criteria::fields {
-
-using quantities::Quantity;
 
 inline constexpr Quantity k_solidified_at{
     .name = "solidified_at",
@@ -442,9 +441,9 @@ inline constexpr std::array k_of_mush_strain = {&k_strained_tendency, &k_crackin
 inline constexpr std::array k_of_local_properties = {&k_tensile_strength, &k_elongation, &k_hardness,
                                                      &k_grain_size};
 
-/// Those that a run has where a material has the data.
+/// Those that a run has where a material, or the case, has the data.
 inline constexpr std::array k_of_some_materials = {
-    &k_gas_pores,  &k_strained_tendency, &k_cracking_index, &k_tensile_strength,
-    &k_elongation, &k_hardness,          &k_grain_size};
+    &k_gas_pores, &k_strained_tendency, &k_cracking_index,    &k_tensile_strength, &k_elongation,
+    &k_hardness,  &k_grain_size,        &k_shot_strain_range, &k_shots_until_crack};
 
 }  // namespace solidus::criteria::fields

@@ -56,6 +56,8 @@ StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact) : phase_(phase
   if (phase.system_->parts().enclosed.any())
     throw InputError({}, "derivatives are not known where surfaces see each other",
                      "radiation = \"ambient\" in all thermal conditions");
+  if (phase.system_->parts().channels.any())
+    throw InputError({}, "derivatives are not known where channels cool", "a case without [[channel]]");
 }
 
 void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, const ThermalState& now,

@@ -273,9 +273,10 @@ class ThermalPhase {
                                     const ThermalState& old, const ThermalPass& pass, ThermalState& next,
                                     ThermalReport& report);
   linear::NewtonReport solve_steady_balance(std::span<double> temperature, std::span<double> residual);
-  [[noreturn]] static void reject_radiation(double tolerance);
-  void book_radiation(std::span<const double> radiated, double dt, std::span<double> heat,
-                      std::span<double> residual) const;
+  [[noreturn]] void reject_exchange(double tolerance, double tolerance_of_fluid);
+  std::vector<ChannelReading> channel_readings(double dt) const;
+  void book_exchange(std::span<const double> changed, double dt, std::span<double> heat,
+                     std::span<double> residual) const;
   ThermalReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
   void start_from(std::span<const double> heat, ThermalState& next) const;
   static ThermalState stage_start(const ThermalState& old, const ThermalState& before,

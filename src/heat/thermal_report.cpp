@@ -68,12 +68,19 @@ HeatBalance ThermalPhase::measure(std::span<const double> temperature, std::span
   for (const auto& [name, power] : system_->parts().prescribed.reaction_powers(reactions))
     balance.conditions.push_back({name, power * dt});
   for (const std::vector<NamedPower>& powers :
-       {system_->parts().surfaces.powers(), system_->parts().sources.powers()})
+       {system_->parts().surfaces.powers(), system_->parts().channels.powers(),
+        system_->parts().sources.powers()})
     for (const auto& [name, power] : powers) balance.conditions.push_back({name, power * dt});
   for (double power : system_->parts().contributions.powers()) balance.contributions.push_back(power * dt);
   if (consistent_) balance.contributions.pop_back();  // no heat, but stored in another place
   if (printed_) balance.contributions.pop_back();     // no heat, but what a printed form loses
   return balance;
+}
+
+std::vector<ChannelReading> ThermalPhase::channel_readings(double dt) const {
+  std::vector<ChannelReading> readings = system_->parts().channels.readings();
+  for (ChannelReading& reading : readings) reading.heat *= dt;
+  return readings;
 }
 
 double ThermalPhase::heat_at(const ThermalState& state, Index node) const {

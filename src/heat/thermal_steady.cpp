@@ -74,16 +74,17 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   // The balance is that of the last residual.
   report.balance = measure(temperature, residual, 1.0);
   report.balance.exchanged = temperature_system_->moved();
+  report.channels = channel_readings(1.0);
   trial = initial_state_at_nodes(temperature);
   return report;
 }
 
-/// The solution of the steady balance, with what surfaces that see each other radiate by fixed-point
-/// iteration.
+/// The solution of the steady balance, with what surfaces that see each other radiate and the fluid of
+/// channels by fixed-point iteration.
 linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temperature, std::span<double> r) {
   HeatParts& parts = system_->parts();
-  if (!parts.enclosed.any()) return solve_temperature(temperature, r);
-  parts.enclosed.begin(parts.surfaces, temperature);
+  if (!parts.enclosed.any() && !parts.channels.any()) return solve_temperature(temperature, r);
+  system_->begin_exchange(temperature);
   linear::NewtonReport report;
   std::vector<double> left(r.size());
   for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
@@ -92,16 +93,23 @@ linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temper
       add_iterations(report, std::move(last));
     else
       report = std::move(last);
-    if (system_->follow_radiation(temperature, k_settled_steady_radiation, left)) return report;
+    if (system_->follow_exchange(temperature, k_settled_steady_radiation, k_settled_steady_fluid, left))
+      return report;
   }
-  reject_radiation(k_settled_steady_radiation);
+  reject_exchange(k_settled_steady_radiation, k_settled_steady_fluid);
 }
 
-void ThermalPhase::reject_radiation(double tolerance) {
-  throw StepRejected(fmt::format("heat: what surfaces radiate to each other has not settled to {:g} K in {} "
-                                 "iterations",
-                                 tolerance, k_most_radiation_iterations),
-                     {}, Failure::heat);
+void ThermalPhase::reject_exchange(double tolerance, double tolerance_of_fluid) {
+  throw StepRejected(
+      system_->parts().channels.any()
+          ? fmt::format(
+                "heat: the fluid of the channels has not settled to {:g} K, or radiation to {:g} K, in "
+                "{} iterations",
+                tolerance_of_fluid, tolerance, k_most_radiation_iterations)
+          : fmt::format(
+                "heat: what surfaces radiate to each other has not settled to {:g} K in {} iterations",
+                tolerance, k_most_radiation_iterations),
+      {}, Failure::heat);
 }
 
 linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, std::span<double> r,

@@ -50,6 +50,8 @@ void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
     sum.conditions[i].heat += carried * first.conditions[i].heat;
   for (std::size_t i = 0; i < sum.contributions.size(); ++i)
     sum.contributions[i] += carried * first.contributions[i];
+  for (std::size_t i = 0; i < last.channels.size(); ++i)
+    last.channels[i].heat += carried * report.channels[i].heat;
   last.newton.add_solves(report.newton);
   last.hardest = std::max(last.hardest, report.hardest);
   report = std::move(last);
@@ -180,7 +182,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   // The sources of a stage: nodal heats H* from which it stores.
   std::vector<double> from = stage_start(old, before, stage).enthalpy;
   if (half_way) start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
-  std::vector<double> radiated = solve_balance(from, stage.dt, before, old, pass, next, report);
+  std::vector<double> changed = solve_balance(from, stage.dt, before, old, pass, next, report);
   report.hardest = report.newton.effort;
   std::vector<double> residual = truncated_newton_->take_residual();
   require_positive(next.temperature);
@@ -188,24 +190,25 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   // balance is exact whatever the tolerance.
   if (!may_end(report.newton, pass.newton_steps)) require(report.newton, residual, next.temperature);
   book(residual, stage.dt, next.enthalpy);
-  if (!radiated.empty()) book_radiation(radiated, stage.dt, next.enthalpy, residual);
+  if (!changed.empty()) book_exchange(changed, stage.dt, next.enthalpy, residual);
   report.balance =
       balance({old.temperature, std::move(from)}, next, residual, truncated_newton_->moved(), stage.dt);
+  if (!pass.adiabatic) report.channels = channel_readings(stage.dt);
   return report;
 }
 
 /// Solves the balance of a stage from H* of `from`. Where surfaces see each other, what falls on them follows
-/// from the temperatures that it makes: both are found by fixed-point iteration.
-/// Returns what the last iteration's exchange brings the nodes beyond the one that they were solved with,
-/// [owned node] [W]; empty where no surfaces see each other.
+/// from the temperatures that it makes, and so does the fluid of channels: both are found by fixed-point
+/// iteration. Returns what the last iteration's exchange brings the nodes beyond the one that they were
+/// solved with, [owned node] [W]; empty where there is none of it.
 std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from, double dt,
                                                 const ThermalState& before, const ThermalState& old,
                                                 const ThermalPass& pass, ThermalState& next,
                                                 ThermalReport& report) {
   HeatParts& parts = system_->parts();
-  const bool enclosed = parts.enclosed.any() && !pass.adiabatic;
-  std::vector<double> radiated(enclosed ? at(mesh_.n_owned_nodes) : 0);
-  if (enclosed) parts.enclosed.begin(parts.surfaces, next.temperature);
+  const bool follows = (parts.enclosed.any() || parts.channels.any()) && !pass.adiabatic;
+  std::vector<double> changed(follows ? at(mesh_.n_owned_nodes) : 0);
+  if (follows) system_->begin_exchange(next.temperature);
   for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
     // Each one starts from the temperatures of the one before; Newton's iterations of all count together.
     const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
@@ -213,23 +216,24 @@ std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from,
     report.newton =
         truncated_newton_->solve(from, dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
     if (iteration > 1) report.newton.add_solves(newton_before);
-    if (!enclosed) return radiated;
+    if (!follows) return changed;
     require_positive(next.temperature);
-    if (system_->follow_radiation(next.temperature, k_settled_radiation, radiated)) return radiated;
+    if (system_->follow_exchange(next.temperature, k_settled_radiation, k_settled_fluid, changed))
+      return changed;
   }
-  reject_radiation(k_settled_radiation);
+  reject_exchange(k_settled_radiation, k_settled_fluid);
 }
 
-/// Adds the last iteration's difference in what surfaces exchange to the heats, so that all of it adds up to
-/// zero with what left through the opening. Where the temperature is prescribed, what holds it takes the
-/// difference.
-void ThermalPhase::book_radiation(std::span<const double> radiated, double dt, std::span<double> heat,
-                                  std::span<double> residual) const {
-  for (std::size_t i = 0; i < radiated.size(); ++i)
+/// Adds the last iteration's difference in what surfaces and channels exchange to the heats, so that all of
+/// it adds up to zero with what left through the opening. Where the temperature is prescribed, what holds it
+/// takes the difference.
+void ThermalPhase::book_exchange(std::span<const double> changed, double dt, std::span<double> heat,
+                                 std::span<double> residual) const {
+  for (std::size_t i = 0; i < changed.size(); ++i)
     if (system_->parts().prescribed.fixed()[i])
-      residual[i] -= radiated[i];
+      residual[i] -= changed[i];
     else
-      heat[i] += dt * radiated[i];
+      heat[i] += dt * changed[i];
   ghosts_.update(heat, 1);
 }
 

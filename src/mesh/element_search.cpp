@@ -27,19 +27,25 @@ struct ElementSearch::Tree {
   bg::index::rtree<Entry, bg::index::quadratic<16>> boxes;
 };
 
-ElementSearch::ElementSearch(const Mesh& mesh) : mesh_(mesh), tree_(std::make_unique<Tree>()) {
+ElementSearch::ElementSearch(const Mesh& mesh, int body) : mesh_(mesh), tree_(std::make_unique<Tree>()) {
   std::vector<Tree::Entry> entries;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    if (body >= 0 && mesh.blocks[b].body != body) continue;
     for (Index e = 0; e < mesh.blocks[b].size(); ++e) {
       const Box box = element_box(mesh, mesh.blocks[b], e);
       entries.push_back({TreeBox(TreePoint(box.low[0], box.low[1], box.low[2]),
                                  TreePoint(box.high[0], box.high[1], box.high[2])),
                          {b, e}});
     }
+  }
   tree_->boxes = {entries.begin(), entries.end()};
 }
 
 ElementSearch::~ElementSearch() = default;
+
+bool ElementSearch::empty() const {
+  return tree_->boxes.empty();
+}
 
 ElementSearch::Found ElementSearch::find(const Point& point) const {
   NearestPlace best;
@@ -79,6 +85,9 @@ ElementSearch::Found ElementSearch::find(const Point& point) const {
   basis_values(best.shape, best.xi, found.weights);
   const ElementBlock& block = mesh_.blocks[answers.block];
   for (const int a : best.local) found.nodes.push_back(block.element(answers.element)[a]);
+  const Box box = element_box(mesh_, block, answers.element);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh_.dimension); ++k)
+    found.size += (box.high[k] - box.low[k]) / mesh_.dimension;
   return found;
 }
 

@@ -11,15 +11,19 @@ namespace solidus::mesh {
 /// Keeps a reference to the mesh. Not collective: it sees the elements of this process alone.
 class ElementSearch {
  public:
-  explicit ElementSearch(const Mesh& mesh);
+  /// @param body  in whose elements points are looked for; −1: in those of all
+  explicit ElementSearch(const Mesh& mesh, int body = -1);
   ~ElementSearch();
 
   struct Found : NodalFunctional {
     double distance = 0;  ///< from the point to the mesh [m], zero inside (to rounding)
+    double size = 0;      ///< mean edge of the box around that element [m]
   };
   /// The nodes and weights N_a(ξ) of the place nearest to a point; where several elements have it, of the
-  /// lowest one. The mesh has an element.
+  /// lowest one. Not where empty().
   Found find(const Point& point) const;
+  /// Whether this process has no such element.
+  bool empty() const;
 
  private:
   struct Tree;

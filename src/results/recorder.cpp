@@ -42,6 +42,7 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .grows = phases.growth != nullptr,
                                  .bodies = options.shots || phases.growth != nullptr};
   columns.sources = options.sources;
+  columns.channels = options.channels;
   // Columns of each pair as far as it has friction and heat.
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)

@@ -34,13 +34,14 @@ struct RecorderOptions {
   bool vtkhdf = false;               ///< gather them in fields.vtkhdf when the run ends or stops
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
-  bool melting = true;                    ///< a material can melt
-  bool stages = false;                    ///< the run has stages
-  bool shots = false;                     ///< some of them are shots
-  std::vector<std::string> sources = {};  ///< that travel, whose power is shown
-  bool fixed_steps = false;               ///< steps do not follow their errors, which the answers then tell
-  bool steady = false;                    ///< one state without a time: fields of it alone
-  bool profile = false;                   ///< print where the wall time went
+  bool melting = true;                     ///< a material can melt
+  bool stages = false;                     ///< the run has stages
+  bool shots = false;                      ///< some of them are shots
+  std::vector<std::string> sources = {};   ///< that travel, whose power is shown
+  std::vector<std::string> channels = {};  ///< that cool, whose fluid is shown
+  bool fixed_steps = false;                ///< steps do not follow their errors, which the answers then tell
+  bool steady = false;                     ///< one state without a time: fields of it alone
+  bool profile = false;                    ///< print where the wall time went
   /// The bodies that are poured, whose solid fraction is shown; empty: of all that can melt.
   std::vector<CastBody> castings;
   DisplayUnits units;                       ///< of the printed answers

@@ -48,6 +48,7 @@ results::RecorderOptions recorder_options(const setup::Case& c, const RunOptions
   r.profiles = setup::profiles(spec);
   r.fields = spec.output.fields;
   r.vtkhdf = spec.output.vtkhdf;
+  for (const cases::ChannelSpec& channel : spec.channels) r.channels.push_back(channel.name);
   for (const cases::SourceSpec& source : spec.sources) r.sources.push_back(source.name);
   r.stages = !spec.stages.empty();
   r.shots = has_shots(a);

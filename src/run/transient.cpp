@@ -119,7 +119,8 @@ Transient::Watches::Watches(const cases::CaseSpec& spec, setup::Assembly& a)
       friction_lag(a.phases.contacts,
                    setup::may_map_slip_again(spec, setup::keeps_strain(spec, a.materials, a.start)),
                    setup::slips_after_heat(spec, setup::keeps_strain(spec, a.materials, a.start))),
-      gaps(a.phases.contacts) {}
+      gaps(a.phases.contacts),
+      channels(spec) {}
 
 Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, setup::Assembly& a,
                      coupling::Observer* recorder)
@@ -137,6 +138,7 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
   simulation_.add(watches_.friction_lag);
   if (heats_by_end_stresses(spec)) simulation_.add(watches_.stress_work);
   simulation_.add(watches_.gaps);
+  if (!spec.channels.empty()) simulation_.add(watches_.channels);
   simulation_.add(watches_.dissipation);
   if (a.phases.audits_stability()) simulation_.add(watches_.stability);
   if (spec.has_heat()) simulation_.add(watches_.first_law);

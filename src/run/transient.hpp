@@ -10,6 +10,7 @@
 #include "results/recorder.hpp"
 #include "run/audit_watch.hpp"
 #include "run/bounds_watch.hpp"
+#include "run/channel_watch.hpp"
 #include "run/dissipation_watch.hpp"
 #include "run/gap_watch.hpp"
 #include "run/lag_watch.hpp"
@@ -67,6 +68,7 @@ class Transient {
     FrictionLagWatch friction_lag;
     StressWorkWatch stress_work;
     GapWatch gaps;
+    ChannelWatch channels;
   };
 
   const cases::CaseSpec& spec_;

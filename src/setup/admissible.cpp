@@ -87,6 +87,8 @@ void check_heat(const cases::CaseSpec& spec, Admissibility& a) {
     else if (c.kind == Kind::exothermic)
       a.violations.push_back(fmt::format("'{}' burns", c.name));
   }
+  for (const cases::ChannelSpec& channel : spec.channels)
+    a.violations.push_back(fmt::format("'{}' is a channel", channel.name));
   for (const cases::SourceSpec& source : spec.sources)
     a.violations.push_back(fmt::format("'{}' is a source", source.name));
   for (const auto& [name, around] : all_surroundings(spec)) {

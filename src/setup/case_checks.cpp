@@ -13,6 +13,7 @@
 #include "results/output/run_folder.hpp"
 #include "setup/body_input.hpp"
 #include "setup/case_file.hpp"
+#include "setup/channel_input.hpp"
 #include "setup/deposition.hpp"
 #include "setup/dynamics_input.hpp"
 #include "setup/heat_input.hpp"
@@ -355,7 +356,6 @@ void check_drive(const cases::FillingSpec& filling) {
   if (drives > 1)
     throw InputError(filling.where, "[filling] says more than once how fast the metal comes",
                      "time or rate or head, or speed or pressure over times");
-  // Times begin with the filling and rise.
   if (!filling.times.empty() && filling.times.front() != 0)
     throw InputError(filling.where, "'times' do not begin with 0 s", "0 s first");
   if (std::ranges::adjacent_find(filling.times, std::greater_equal<>()) != filling.times.end())
@@ -365,7 +365,6 @@ void check_drive(const cases::FillingSpec& filling) {
   check_over_times(filling, filling.speed, "speed", false);
   check_over_times(filling, filling.pressure, "pressure", false);
   check_over_times(filling, filling.tilt, "tilt", true);
-  // An axis has a direction.
   const bool turns = std::ranges::any_of(filling.tilt_axis, [](double x) { return x != 0; });
   if (!filling.tilt.empty() && (filling.tilt_axis.size() != 3 || !turns))
     throw InputError(filling.where, "'tilt' needs the direction of its axis", "tilt_axis = [0, 1, 0]");
@@ -420,6 +419,7 @@ void check_case(const cases::CaseSpec& spec) {
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
   check_rotation(spec);
+  check_dies(spec);
   check_sources(spec);
   check_depositions(spec);
   check_contacts(spec);

@@ -50,7 +50,7 @@ void resolve_paths(Value& document) {
     if (Value* file = mesh->find("file"); file && file->is_text()) resolve(*file);
   if (Value* filling = document.find("filling"); filling && filling->is_table())
     if (Value* result = filling->find("result"); result && result->is_text()) resolve(*result);
-  for (const char* kind : {"thermal_condition", "mechanical_condition", "source", "deposition"})
+  for (const char* kind : {"thermal_condition", "mechanical_condition", "source", "deposition", "channel"})
     if (Value* conditions = document.find(kind); conditions && conditions->is_list())
       for (Value& condition : conditions->items()) resolve_places(condition);
   Value* bodies = document.find("body");

@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string_view>
 
 #include "cases/case_materials.hpp"
+#include "cases/roles.hpp"
 #include "criteria/criteria.hpp"
 #include "criteria/criterion_kind.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/rotation_input.hpp"
+#include "system/log.hpp"
 
 namespace solidus::setup {
 
@@ -108,6 +112,36 @@ std::vector<std::string> names_of_bodies(const cases::CaseSpec& spec) {
   return names;
 }
 
+criteria::FatigueLaw fatigue_law(const cases::CaseSpec& spec, const cases::DieLifeSpec& d,
+                                 const cases::BodySpec& body) {
+  criteria::FatigueLaw law{.strength = d.strength,
+                           .modulus = d.modulus,
+                           .strength_exponent = d.strength_exponent,
+                           .ductility = d.ductility,
+                           .ductility_exponent = d.ductility_exponent,
+                           .mean_stress = d.mean_stress};
+  if (d.law == cases::DieLifeSpec::Law::table) {
+    law.strain.assign(d.cycles.table.x().begin(), d.cycles.table.x().end());
+    law.cycles.assign(d.cycles.table.y().begin(), d.cycles.table.y().end());
+  }
+  law.deforms = spec.has_mechanics() && !cases::only_conducts(body);
+  logging::info("life of '{}': thermal fatigue by {}{}; range of strain {}", body.name,
+                d.law == cases::DieLifeSpec::Law::table ? "a table" : "Coffin, Manson and Basquin",
+                d.source.empty() ? ", constants without a source" : ", constants of " + d.source,
+                law.deforms ? "of its deformation, between its hottest and its coldest moment"
+                            : "of a skin that is held completely: an upper bound, so that it lives longer");
+  return law;
+}
+
+/// The fatigue of each body, in the order of the case's bodies. Throws InputError.
+std::vector<std::optional<criteria::FatigueLaw>> fatigue_laws(const cases::CaseSpec& spec) {
+  std::vector<std::optional<criteria::FatigueLaw>> laws(spec.die_lives.empty() ? 0 : spec.bodies.size());
+  for (const cases::DieLifeSpec& d : spec.die_lives)
+    for (std::size_t b = 0; b < laws.size(); ++b)
+      if (spec.bodies[b].mesh_group() == d.body) laws[b] = fatigue_law(spec, d, spec.bodies[b]);
+  return laws;
+}
+
 }  // namespace
 
 LocalLaws local_laws(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
@@ -120,6 +154,34 @@ LocalLaws local_laws(const cases::CaseSpec& spec, const std::vector<material::Ma
     if (followed[b] != 0)
       laws[b] = material::find_local_laws(spec.bodies[b].material, folders, spec.bodies[b].where);
   return laws;
+}
+
+void check_die_lives(const cases::CaseSpec& spec) {
+  std::vector<std::string> seen;
+  for (const cases::DieLifeSpec& d : spec.die_lives) {
+    const auto refuse = [&](const std::string& what, const std::string& allowed) {
+      throw InputError(d.where, fmt::format("[[die_life]] of '{}': {}", d.body, what), allowed);
+    };
+    if (std::ranges::none_of(spec.bodies, [&](const auto& b) { return b.mesh_group() == d.body; }))
+      refuse("there is no such body", "the group of a [[body]]");
+    if (std::ranges::find(seen, d.body) != seen.end()) refuse("it is given twice", "one for each body");
+    seen.push_back(d.body);
+    if (!spec.has_heat() || !spec.criteria.follow || spec.time.steady)
+      refuse("no criteria of heat are followed",
+             "a transient run with heat, and follow = true in [criteria]");
+    if (!spec.depositions.empty()) refuse("not with bodies that grow yet", "a case without [[deposition]]");
+    if (d.law == cases::DieLifeSpec::Law::coffin_manson) {
+      if (d.mean_stress >= d.strength) refuse("its mean stress breaks it", "below fatigue_strength");
+      continue;
+    }
+    const std::span<const double> x = d.cycles.table.x(), y = d.cycles.table.y();
+    if (x.size() < 2 || x.front() <= 0)
+      refuse("its table has no two ranges of strain above zero", "points = [[0.004, 20000], [0.01, 800]]");
+    for (std::size_t i = 1; i < y.size(); ++i)
+      if (y[i] >= y[i - 1])
+        refuse(fmt::format("its cycles do not fall from {:g} to {:g} with the strain", y[i - 1], y[i]),
+               "fewer cycles for more strain");
+  }
 }
 
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
@@ -147,7 +209,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
       .feeding = spec.feeding.follow && whole,
       .feeding_options = feeding_options(spec, mesh, materials, start),
       .local_laws = laws,
-      .names = names_of_bodies(spec)};
+      .names = names_of_bodies(spec),
+      .fatigue = fatigue_laws(spec)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   // A mistake in a criterion's options is told with the place of the section that it belongs to.
   for (const auto& kind : criteria::criterion_kinds()) {

@@ -18,6 +18,9 @@ using LocalLaws = std::vector<std::vector<material::LocalLaw>>;
 LocalLaws local_laws(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,
                      const std::vector<InitialTemperatureRange>& start);
 
+/// Checks the fatigue of dies. Throws InputError.
+void check_die_lives(const cases::CaseSpec& spec);
+
 /// Creates the criteria of a case; null: none, because nothing can freeze or the case says so. Collective.
 /// @param mesh       the elements that are there
 /// @param start      temperatures, [body]: what is poured is followed (cast_bodies.hpp)

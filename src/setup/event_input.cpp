@@ -127,6 +127,13 @@ std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::Sta
       if (film || radiates) list.add(c.ambient, c.clock, false, k_of_values);
       list.add(c.factor, c.clock, false);
     }
+  // Flow and temperature of what comes into channels.
+  for (const cases::ChannelSpec& c : spec.channels) {
+    if (!cases::holds(c.stages, stage)) continue;
+    for (const auto* f : {&c.flow, &c.mass_flow})
+      if (*f) list.add(**f, c.clock, false);
+    if (c.inlet) list.add(*c.inlet, c.clock, false, k_of_values);
+  }
   // Sources that travel are switched, and turn.
   for (const cases::SourceSpec& source : spec.sources) {
     list.add(source.power, cases::TimeOrigin::run, false);

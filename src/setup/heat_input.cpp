@@ -2,6 +2,7 @@
 #include "setup/heat_input.hpp"
 
 #include "setup/body_input.hpp"
+#include "setup/channel_input.hpp"
 #include "setup/place_input.hpp"
 #include "setup/source_input.hpp"
 
@@ -53,6 +54,7 @@ heat::ThermalConditions thermal_conditions(const cases::CaseSpec& spec, const ca
         break;
     }
   }
+  add_channels(spec, stage, conditions);
   add_sources(spec, conditions);
   return conditions;
 }

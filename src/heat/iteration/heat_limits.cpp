@@ -34,6 +34,7 @@ bool HeatLimits::find(std::span<const double> temperature, double negligible) {
     surface.add_supply(temperature, gain, loss);
     for (LimitedFlow& limited : surface.flows()) flows.push_back(&limited);
   }
+  parts_.channels.add_supply(temperature, gain, loss);
   parts_.sources.add_supply(gain, loss);
   parts_.contributions.add_supply(temperature, gain, loss);
   // From these sums the limiter finds the shares that are held in the iteration that follows.
@@ -72,6 +73,7 @@ TemperatureRange HeatLimits::surroundings() const {
   for (const SurfaceHeat& surface : parts_.surfaces.each())
     if (const std::optional<TemperatureRange> ambient = surface.law().ambient())
       range = united(range, *ambient);
+  range = united(range, parts_.channels.ambient());
   return over_processes(range);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "heat/channels/channels.hpp"
 #include "heat/conduction/conduction_elements.hpp"
 #include "heat/conduction/kept_conduction.hpp"
 #include "heat/conduction/unsymmetric_part.hpp"
@@ -29,12 +30,14 @@ struct HeatParts {
         prescribed(mesh, elements.active(), conditions.temperatures),
         contributions(std::move(terms), mesh.n_owned_nodes) {
     enclosed.set(mesh, kind, elements.active(), closed, conditions);
+    channels.set(mesh, kind, elements.active(), closed, conditions);
   }
 
   ConductionElements elements;  ///< with the bodies that are active in the present stage
   KeptConduction conduction;
   SurfaceHeats surfaces;
   EnclosedSurfaces enclosed;  ///< those of `surfaces` that see each other
+  Channels channels;
   BodySources sources;
   PrescribedNodes prescribed;
   HeatContributions contributions;

@@ -72,6 +72,7 @@ bool HeatSystem::set_conditions(const ThermalConditions& conditions) {
   if (others) parts_.elements.set_active(active);
   parts_.surfaces = SurfaceHeats(mesh_, kind_, active, closed_, conditions);
   parts_.enclosed.set(mesh_, kind_, active, closed_, conditions);
+  parts_.channels.set(mesh_, kind_, active, closed_, conditions);
   parts_.sources = BodySources(mesh_, kind_, active, at_nodes_, conditions);
   parts_.prescribed = PrescribedNodes(mesh_, active, conditions.temperatures);
   if (others) matrix_->set_graph(graph());
@@ -87,6 +88,7 @@ bool HeatSystem::set_conditions(const ThermalConditions& conditions) {
 
 void HeatSystem::set_window(const LoadWindow& window) {
   for (SurfaceHeat& surface : parts_.surfaces.each()) surface.set_window(window);
+  parts_.channels.set_window(window);
   parts_.sources.set_window(window);
   // A function of position may fail on one process alone.
   const auto prescribe = [&] { parts_.prescribed.set_time(window.time); };
@@ -102,10 +104,12 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   double moved = 0;
   std::fill(supplied_.begin(), supplied_.end(), 0.0);
   parts_.surfaces.clear_powers();
+  parts_.channels.clear_powers();
   parts_.sources.clear_powers();
   if (parts_.exchanges) {
     const std::span<double> flow = parts_.conduction.flow(temperature);
     parts_.surfaces.add_residual(temperature, supplied_, moved);
+    parts_.channels.add_residual(temperature, supplied_, moved);
     parts_.sources.add_residual(supplied_, moved);
     for (std::size_t i = 0; i < flow.size(); ++i) flow[i] += supplied_[i];
     std::copy_n(flow.begin(), r.size(), r.begin());
@@ -116,6 +120,32 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   }
   parts_.contributions.add_residual(temperature, parts_.exchanges, r, moved);
   return moved;
+}
+
+void HeatSystem::begin_exchange(std::span<const double> temperature) {
+  if (parts_.enclosed.any()) parts_.enclosed.begin(parts_.surfaces, temperature);
+  if (parts_.channels.any()) parts_.channels.begin(temperature, parts_.elements.potentials());
+}
+
+bool HeatSystem::follow_exchange(std::span<const double> temperature, double tolerance,
+                                 double tolerance_of_fluid, std::span<double> change) {
+  std::fill(change.begin(), change.end(), 0.0);
+  bool settled = true;
+  if (parts_.enclosed.any()) settled = follow_radiation(temperature, tolerance, change);
+  if (parts_.channels.any()) settled = follow_channels(temperature, tolerance_of_fluid, change) && settled;
+  return settled;
+}
+
+bool HeatSystem::follow_channels(std::span<const double> temperature, double tolerance,
+                                 std::span<double> change) {
+  std::vector<double> before(mesh_.x.size(), 0.0), after(before);
+  double moved = 0;
+  parts_.channels.add_residual(temperature, before, moved);
+  const bool settled = parts_.channels.follow(temperature, parts_.elements.potentials(), tolerance);
+  parts_.channels.add_residual(temperature, after, moved);
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i] - after[i];
+  for (std::size_t i = 0; i < supplied_.size(); ++i) supplied_[i] += after[i] - before[i];
+  return settled;
 }
 
 bool HeatSystem::follow_radiation(std::span<const double> temperature, double tolerance,
@@ -129,7 +159,7 @@ bool HeatSystem::follow_radiation(std::span<const double> temperature, double to
   const bool settled = parts_.enclosed.follow(parts_.surfaces, temperature, tolerance);
   for (const std::size_t s : numbers)
     parts_.surfaces.add_power(s, parts_.surfaces.add_residual_of(s, temperature, after));
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] = before[i] - after[i];
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i] - after[i];
   for (std::size_t i = 0; i < supplied_.size(); ++i) supplied_[i] += after[i] - before[i];
   return settled;
 }
@@ -152,6 +182,7 @@ void HeatSystem::assemble(std::span<const double> temperature) {
   if (!parts_.exchanges) return;
   parts_.elements.add_tangent(temperature);
   parts_.surfaces.add_tangent(temperature, *matrix_);
+  parts_.channels.add_tangent(*matrix_);
   if (const ConductionLimiter* const limiter = parts_.conduction.limiter())
     limiter->add_tangent(temperature, *matrix_);
 }
@@ -183,7 +214,10 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
   const bool exchanges = parts_.exchanges;
   if (exchanges) parts_.conduction.keep();
   parts_.unsymmetric.clear();
-  const auto add_surfaces = [&] { parts_.surfaces.add_tangent(temperature, *matrix_); };
+  const auto add_surfaces = [&] {
+    parts_.surfaces.add_tangent(temperature, *matrix_);
+    parts_.channels.add_tangent(*matrix_);
+  };
   if (exchanges && !further && parts_.conduction.assemble_diagonal(slopes, add_surfaces)) return;
   // Otherwise all parts are assembled, and scaled from temperature to potential.
   parts_.conduction.keep_apart();
@@ -200,7 +234,7 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
 
 std::size_t HeatSystem::bytes() const {
   return matrix_->bytes() + parts_.elements.bytes() + parts_.conduction.bytes() +
-         parts_.contributions.bytes() + parts_.enclosed.bytes();
+         parts_.contributions.bytes() + parts_.enclosed.bytes() + parts_.channels.bytes();
 }
 
 }  // namespace solidus::heat

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "heat/loads/channel_film.hpp"
+#include "heat/loads/channel_fluid.hpp"
 #include "heat/loads/exothermic.hpp"
 #include "numbers/place_function.hpp"
 
@@ -62,6 +64,22 @@ struct Source {
   PlaceFunction factor = 1.0;
 };
 
+/// A cooling channel that is a line in the mesh (channels/channels.hpp).
+struct Channel {
+  std::string name;
+  std::string body;            ///< name of a body of the mesh
+  std::vector<Position> path;  ///< corners of the way [m]; in two dimensions places of bores or rings
+  double diameter = 0;         ///< [m]
+  PlaceFunction flow;          ///< mass flow [kg/s], or volume flow [m³/s]; the same everywhere
+  bool by_volume = false;      ///< which of the two; the density is that at the inlet
+  PlaceFunction inlet;         ///< Θ of what comes in [K], the same everywhere
+  ChannelFluid fluid;
+  ChannelLaw law = ChannelLaw::gnielinski;
+  double laminar = 3.66;  ///< Nu of laminar flow
+  double share = 1;       ///< of the channel that is in the model: one half in a plane of symmetry
+  std::string after;      ///< the channel, earlier in the list, whose outlet feeds it; empty: none
+};
+
 /// Thermal conditions of a model. A surface without a condition is insulated. Functions of time are taken at
 /// the end of the step (backward Euler). `name` is for messages and history columns.
 struct ThermalConditions {
@@ -71,6 +89,7 @@ struct ThermalConditions {
   std::vector<Radiation> radiations;
   std::vector<Source> sources;
   std::vector<Exothermic> exothermics;
+  std::vector<Channel> channels;
   /// Names of the bodies that have been removed: their elements neither conduct nor store heat, nodes that
   /// belong to them alone keep their temperature, and conditions hold only where another body is.
   std::vector<std::string> absent_bodies;

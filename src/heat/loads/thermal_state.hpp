@@ -1,6 +1,7 @@
 /// State of the thermal phase, which it reads at t_n and writes at t_{n+1}, and its report of a step.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -36,6 +37,18 @@ struct ConditionHeat {
       0;  ///< [J] (steady: [W]); axisymmetric: of the whole revolution; plane: per metre of thickness
 };
 
+/// What the fluid of a cooling channel has come to.
+struct ChannelReading {
+  std::string name;
+  double heat = 0;                ///< that it took up, by its enthalpy [J] (of a state: per second)
+  double outlet = 0;              ///< [K]
+  double reynolds = 0;            ///< mean along the way; zero: nothing flows
+  double film = 0;                ///< h, mean along the way [W/(m² K)]
+  double wall = 0;                ///< where it is hottest [K]
+  std::array<double, 3> place{};  ///< where that is [m]
+  bool found = false;             ///< whether some of the channel lies in its body, and the fluid flows
+};
+
 /// The first law of the thermal phase alone, over one step and all processes.
 struct HeatBalance {
   double stored = 0;    ///< change of the heat content, by exact enthalpy differences [J]
@@ -68,7 +81,8 @@ struct ThermalReport {
   linear::NewtonReport newton;  ///< sums over the stages of the step
   int hardest = 0;              ///< the most effort of one stage (linear::NewtonReport)
   HeatBalance balance;
-  StageFlows flows;  ///< known where the nodes hold the heat and something flows
+  std::vector<ChannelReading> channels;  ///< heat of the step, all else at its end
+  StageFlows flows;                      ///< known where the nodes hold the heat and something flows
 };
 
 }  // namespace solidus::heat

@@ -27,7 +27,7 @@ void each_number(C& c, const Visit& visit) {
       o.limits.inertia, o.limits.skin, o.limits.opening, o.limits.last_melt);
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
       e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work,
-      e.inelastic_entropy, e.internal_at_start);
+      e.inelastic_entropy, e.internal_at_start, e.to_channels);
   all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
   auto& s = k.shots;
   all(c.state.shot, c.state.poured, s.shots, s.change, s.lowest, s.highest);

@@ -230,6 +230,19 @@ std::vector<CsvCell> step_row(const coupling::StepRecord& r, StepTable table) {
   return cells;
 }
 
+/// The columns of a channel: the mean power of the step, and its fluid at the end of it.
+void GlobalHistory::add_channel(const std::string& name, std::vector<Reading>& to) const {
+  heat::ChannelReading reading;
+  for (const heat::ChannelReading& one : last_.channels)
+    if (one.name == name) reading = one;
+  const bool known = !reading.name.empty();
+  to.push_back({{name + "_power", "W"}, last_.power_of(name)});
+  to.push_back({{name + "_outlet", "degC"}, known ? reading.outlet - k_zero_celsius : 0.0});
+  to.push_back({{name + "_wall", "degC"}, known ? reading.wall - k_zero_celsius : 0.0});
+  to.push_back({{name + "_reynolds", "1"}, reading.reynolds});
+  to.push_back({{name + "_film", "W/m2/K"}, reading.film});
+}
+
 std::vector<Reading> GlobalHistory::all() const {
   // The readings of history.csv in their order, each where the run has what it reads: temperatures, contact,
   // energies of the first law summed over the steps so far, and stability.
@@ -254,6 +267,8 @@ std::vector<Reading> GlobalHistory::all() const {
     add("heat_in", "J", sum_.heat_in);
     for (const std::string& source : options_.sources)
       all.push_back({{source + "_power", "W"}, last_.power_of(source)});
+    if (!options_.channels.empty()) add("heat_to_channels", "J", sum_.to_channels);
+    for (const std::string& channel : options_.channels) add_channel(channel, all);
   }
   if (options_.grows) add("deposited_mass", "kg", mass_);
   if (options_.heat && options_.bodies) {

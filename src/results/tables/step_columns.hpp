@@ -44,11 +44,12 @@ class GlobalHistory {
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
     std::vector<PairColumns> pairs = {};
-    bool heat = true;                       ///< is followed: the first law is audited
-    bool internal_energy = false;           ///< states have one (coupling/internal_energy.hpp)
-    std::vector<std::string> sources = {};  ///< names of sources that travel: a column of power for each
-    bool grows = false;                     ///< bodies grow: their mass is a column
-    bool bodies = false;                    ///< bodies leave and come: their heat is part of the balance
+    bool heat = true;                        ///< is followed: the first law is audited
+    bool internal_energy = false;            ///< states have one (coupling/internal_energy.hpp)
+    std::vector<std::string> sources = {};   ///< names of sources that travel: a column of power for each
+    std::vector<std::string> channels = {};  ///< names of channels: columns of the fluid of each
+    bool grows = false;                      ///< bodies grow: their mass is a column
+    bool bodies = false;                     ///< bodies leave and come: their heat is part of the balance
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
@@ -73,6 +74,7 @@ class GlobalHistory {
   double relative_defect() const;
 
  private:
+  void add_channel(const std::string& name, std::vector<Reading>& to) const;
   std::vector<Reading> entries() const;  ///< those that are shown
 
   Options options_;
