@@ -17,7 +17,7 @@ import numpy as np
 from solidus_plots import calibrate_plots, calibrate_result, style
 from solidus_plots.calibrate_file import read_calibration
 from solidus_plots.calibrate_fit import Search, fit
-from solidus_plots.calibrate_model import Model, probes_of, resolved_case, why_differences
+from solidus_plots.calibrate_model import Model, deforms, probes_of, resolved_case, why_differences
 from solidus_plots.calibrate_readings import read_readings
 from solidus_plots.calibrate_statistics import evaluate
 from solidus_plots.history import Table
@@ -148,18 +148,18 @@ def calibrate(options, say):
     name = Path(case_folder(options.case)).name
     folder = options.output or options.results_root / "results" / name / "calibrate"
     folder.mkdir(parents=True, exist_ok=True)
-    model = Model(options.case, words, calibration, readings, folder / "runs", jobs, forward)
+    model = Model(options.case, words, calibration, readings, folder / "runs", jobs, forward, forward and deforms(case))
     start = time.monotonic()
     found = search_and_fit(model, readings, calibration, say)
     statistics = evaluate(found, calibration.parameters(), readings, calibration.confidence)
-    cost = {"runs": model.runs, "seconds": round(time.monotonic() - start, 3),
+    cost = {"runs": model.runs, "with_derivatives": model.with_derivatives, "seconds": round(time.monotonic() - start, 3),
             "derivatives": "forward" if forward else "differences"}
     write(calibration, options, model, readings, found, statistics, cost, folder)
     say("")
     say(calibrate_result.text(statistics, found, calibration.confidence))
     if not found.converged or found.message:
         say(f"  {'the search has not ended' if not found.converged else 'the search has ended'}: {found.message}")
-    say(f"{model.runs} runs, {cost['seconds']:.0f} s; results in {folder}")
+    say(f"{model.runs} runs{f', {model.with_derivatives} of them with derivatives' if model.dear else ''}, {cost['seconds']:.0f} s; results in {folder}")
 
 
 def case_folder(case):

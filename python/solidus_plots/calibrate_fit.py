@@ -6,7 +6,8 @@ unknowns, and a loss that outliers do not rule.
 A step solves (Jᵀ W J + P + λ diag) δ = −∇F for the unknowns that no bound holds, with W = ρ'; λ follows from how much of
 what the linear model promises a step keeps (J. J. Moré, Lecture Notes in Mathematics 630 (1978) 105). Unknowns above
 zero are searched for by their logarithms. Where derivatives are differences of runs those of the start are updated (C. G.
-Broyden, Math. Comp. 19 (1965) 577) until a step keeps little of its promise.
+Broyden, Math. Comp. 19 (1965) 577) until a step keeps little of its promise; where they come with the run but cost more
+than it, while steps keep most of it.
 """
 
 from dataclasses import dataclass
@@ -92,8 +93,12 @@ class Search:
         self.known[key] = self.model.predict(self.natural(x), derivatives)
         return self.known[key]
 
-    def rows(self, x):
-        return (self.predict(x, self.model.forward or not self.known).values - self.measured) / self.sigma
+    def rows(self, x, derivatives):
+        """With the run that gives them, where derivatives come with it and are wanted."""
+        return (self.predict(x, derivatives or not self.known).values - self.measured) / self.sigma
+
+    def has_derivative(self, x):
+        return self.known[tuple(x)].derivatives is not None
 
     def derivative(self, x):
         """Of the rows by x."""
@@ -126,9 +131,9 @@ def fit(search, loss="linear", loss_scale=2.0, start=None):
     sum_of = lambda rows, x: 0.5 * (loss_of(loss, loss_scale, rows) + np.sum((search.certainty * (x - search.prior)) ** 2))
     # The first point has exact derivatives, and later ones where they cost no run of their own.
     jacobian = search.derivative(x)
-    rows = search.rows(x)
+    rows = search.rows(x, True)
     value, damping, converged, message = sum_of(rows, x), LAMBDA, False, f"the {search.most_runs} runs are used up"
-    failed, fresh = 0, True
+    failed, fresh, kept = 0, True, 0.0
     try:
         while True:
             weights = weights_of(loss, loss_scale, rows)
@@ -147,8 +152,10 @@ def fit(search, loss="linear", loss_scale=2.0, start=None):
                 # The last word is that of derivatives at the point itself.
                 jacobian, fresh = search.derivative(x), True
                 continue
+            # Derivatives that cost more than the run itself are updated while the linear model keeps its promise.
+            wanted = search.model.forward and (not search.model.dear or kept < GOOD)
             try:
-                rows_there = search.rows(target)
+                rows_there = search.rows(target, wanted)
             except RunFailed as failure:  # the physics of a far step may not go through: a shorter one is taken
                 search.say(f"  {failure}: a shorter step")
                 damping, failed = max(damping * 10, 1e-2), failed + 1
@@ -159,23 +166,23 @@ def fit(search, loss="linear", loss_scale=2.0, start=None):
             kept = (value - there) / promise if promise > 0 else -1.0
             search.say(f"  run {search.model.runs}: mean square {2 * there / n:.4g}")
             better = there < value
-            if not search.model.forward:
+            if not wanted:
                 jacobian, fresh = _updated(jacobian, rows, rows_there, step), False
             damping = damping / 10 if kept > GOOD else damping * 4 if kept < POOR else damping
             if better:
                 x, rows, value, failed = target, rows_there, there, 0
-                if search.model.forward:
-                    jacobian = search.derivative(x)
+                if search.has_derivative(x):
+                    jacobian, fresh = search.derivative(x), True
             else:
                 damping, failed = max(damping * 10, 1e-6), failed + 1
                 if failed >= TRIES:
                     converged, message = True, "no step lowers the sum any more"
                     break
-            if kept < POOR and not search.model.forward:
+            if kept < POOR and not fresh:
                 jacobian, fresh = search.derivative(x), True
     except OutOfRuns:
         pass
-    if not search.model.forward and not fresh:
+    if not fresh:
         message += "; derivatives are updated ones" if message else "derivatives are updated ones"
     return Fit(search.natural(x), rows * search.sigma, jacobian, search.sigma, weights_of(loss, loss_scale, rows),
                search.model.runs, converged, message)

@@ -87,9 +87,12 @@ class Prediction:
 class Model:
     """Predictions of all readings, run by run."""
 
-    def __init__(self, case, words, calibration, readings, folder, jobs, forward):
-        """words: of all runs; forward: derivatives are those of `run --sensitivities`, else differences of runs."""
+    def __init__(self, case, words, calibration, readings, folder, jobs, forward, dear=False):
+        """words: of all runs; forward: derivatives are those of `run --sensitivities`, else differences of runs; dear: such a
+        run costs more than two without."""
         self.calibration, self.readings, self.folder, self.jobs, self.forward = calibration, readings, folder, jobs, forward
+        self.dear = dear
+        self.with_derivatives = 0  # runs that gave them
         self.words = words
         self.parameters = calibration.parameters()
         self.runner = Runner(case, False)
@@ -173,6 +176,7 @@ class Model:
             # `run` gives the list of parameters its own folder, which a run empties of what it wrote before.
             self._list_of_parameters(theta, self.folder / "parameters.toml")
             words += ["--sensitivities", str(self.folder / "parameters.toml")]
+            self.with_derivatives += 1
         wanted = [(folder, words)]
         beside = []
         if derivatives and not self.forward:
@@ -253,16 +257,39 @@ def probes_of(case):
     return found
 
 
+def deforms(case):
+    return case.get("analysis", {}).get("physics", "thermomechanical") != "heat"
+
+
+def _why_not_coupled(case):
+    """What keeps a case of bodies that deform from forward differentiation; empty: nothing."""
+    if case.get("analysis", {}).get("physics") == "mechanics":
+        return "there is no heat"
+    coupling = case.get("coupling", {})
+    if coupling.get("scheme", "isentropic") not in ("isentropic", "isothermal") or coupling.get("thermal_flow", "kept") != "kept":
+        return "bodies deform with another scheme than the isentropic or isothermal split"
+    if coupling.get("order") != "mechanics_first":
+        return "bodies deform after heat; --set 'coupling.order=\"mechanics_first\"' has derivatives"
+    if "dynamics" in case:
+        return "bodies have inertia"
+    for contact in case.get("contact", []):
+        if "friction" in contact or not str(contact.get("interface", {}).get("heat_capacity", "0")).startswith("0"):
+            return f"the contact '{contact.get('name')}' rubs or stores heat"
+    return ""
+
+
 def why_differences(case, readings):
     """What keeps a case from forward differentiation; empty: nothing."""
     probes = probes_of(case)
-    if case.get("analysis", {}).get("physics", "thermomechanical") != "heat":
-        return "bodies deform"
+    why = _why_not_coupled(case) if deforms(case) else ""
+    if why:
+        return why
     if case.get("time", {}).get("adaptive") or case.get("time", {}).get("steady"):
         return "steps follow their errors (time.adaptive)"
     if case.get("stage"):
         return "the case has stages"
     if case.get("heat", {}).get("integration", "closed") != "closed":
         return "heat is held at points (heat.integration)"
-    others = [r.header for r in readings if probes.get(r.header, {}).get("field") != "temperature"]
-    return f"'{Table.name(others[0])}' is no temperature" if others else ""
+    known = ("temperature", "displacement") if deforms(case) else ("temperature",)
+    others = [r.header for r in readings if probes.get(r.header, {}).get("field") not in known]
+    return f"'{Table.name(others[0])}' is no {' or '.join(known)}" if others else ""

@@ -26,9 +26,7 @@ constexpr double k_plateau_stiffness =
 constexpr int k_directions = 60;  ///< of the iteration for what the symmetric matrix lacks
 constexpr double k_accuracy = 1e-9;               ///< of a derivative, in the residual of its linear system
 constexpr std::size_t k_most_factorised = 20000;  ///< nodes, whose factors stay small in three dimensions too
-constexpr int k_corrections = 8;  ///< by residuals, where the tangent of a contribution is not exact
-constexpr double k_second_order =
-    2e-6;                            ///< residual over that before the first one, which is of second order
+constexpr int k_corrections = 8;     ///< by residuals, where the tangent of a contribution is not exact
 constexpr double k_no_better = 0.5;  ///< residual over that before from which on no correction helps
 
 std::size_t at(Index i) {
@@ -47,7 +45,8 @@ void add(double factor, std::span<const double> x, std::span<double> y) {
 
 }  // namespace
 
-StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact) : phase_(phase), exact_(exact) {
+StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact, double accuracy)
+    : phase_(phase), exact_(exact), accuracy_(accuracy) {
   // Only with these settings the heat of a node is one known curve of its temperature, along which
   // derivatives are taken.
   if (!phase.nodal() || phase.consistent_ || phase.printed_)
@@ -87,8 +86,10 @@ void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, 
 }
 
 /// Conditions, and limits of conduction, of a stage: those of the run's temperatures for all phases.
-void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
-                            const ThermalState& before, const ThermalState& now) {
+/// @param from  the phase's own state at the end of the stage before, from which its deformation gives heat
+void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const ThermalState& from,
+                            const ThermalState& old, const ThermalState& before, const ThermalState& now) {
+  phase.begin_stage({stage.dt, stage.carried}, from.temperature);
   // Both phases of a pair have to see the same window of loads and the same limits, else the difference of
   // their residuals would hold jumps of a switch in place of a derivative.
   phase.system_->parts().exchanges = true;
@@ -115,7 +116,7 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
                                     const ThermalState& now, std::span<Neighbour> neighbours) {
   // The order matters: the system of the run's phase is set up, its residual taken and its matrix assembled
   // at the same state, and each neighbour then uses that one matrix.
-  begin(phase_, stage, old, before, now);
+  begin(phase_, stage, before, old, before, now);
   const std::size_t n = at(phase_.mesh_.n_owned_nodes);
   // What the run's own iteration has left of F is not the neighbours' to remove.
   std::vector<double> left(n);
@@ -123,14 +124,15 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
   linearise(stage, now);
   factorised_ = factorise();
   bool first = true;
+  int needed = exact_ ? 1 : 0;  // corrections; zero: not known yet
   for (Neighbour& neighbour : neighbours) {
     // The neighbour gets the limits of the run as well, and its own loads at the same times.
-    begin(*neighbour.phase, stage, old, before, now);
+    begin(*neighbour.phase, stage, neighbour.before, old, before, now);
     ThermalState end = guess(*neighbour.phase, now);
     double before_it = HUGE_VAL, at_first = 0;
-    // Where tangents are not exact, what they have left of the residual is taken up until it is of second
-    // order in the change.
-    for (int k = 0; k < k_corrections; ++k) {
+    // Where tangents are not exact, what they have left of the residual is taken up until it is small
+    // enough: of one neighbour, and with as many solves of the others unless derivatives are to be exact.
+    for (int k = 0; k < k_corrections && (k == 0 || k != needed); ++k) {
       std::vector<double> f(n), step(end.temperature.size());
       add_residual(*neighbour.phase, stage, *neighbour.old, neighbour.before, end, f);
       // Only what the neighbour's residual has more than the run's counts, and rows of prescribed
@@ -139,15 +141,16 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
         f[i] = phase_.system_->parts().prescribed.fixed()[i] ? 0.0 : f[i] - left[i];
       const double size = std::sqrt(dot(f, f));
       if (k == 0) at_first = size;
-      // Corrections end when the rest is of second order in the change, or when they gain nothing: the
+      // Corrections end when the rest is small enough, or when they gain nothing: the
       // tangent is then no better than what is left.
-      if (k > 0 && (size <= k_second_order * at_first || size >= k_no_better * before_it)) break;
+      const bool done = size <= accuracy_ * at_first;
+      if (k > 0 && done && accuracy_ > k_sensitivity_accuracy) needed = k;
+      if (done || (k > 0 && size >= k_no_better * before_it)) break;
       before_it = size;
       // The matrix is prepared at its first use alone; every later neighbour and correction solves with it
       // again.
       solve(f, step, std::exchange(first, false));
       follow(stage, f, step, end);
-      if (exact_) break;
     }
     neighbour.before = std::move(end);
   }

@@ -12,7 +12,8 @@
 /// at ε, the tangent at zero). One matrix serves all neighbours of a stage: each costs one residual and one
 /// solve with factors that are there. v is the unknown of nodal_potential.hpp; phase change, films, radiation
 /// and heat through contact are in F and K as in the run's own iteration. Of limits of conduction
-/// (conduction_limiter.hpp) it is held how they follow from temperatures. A step has the derivative of the
+/// (conduction_limiter.hpp) it is held how they follow from temperatures. Heat of deformation is that of each
+/// neighbour's own, which its contribution has been given. A step has the derivative of the
 /// equations that it has solved: where a node begins or ceases to lie on a plateau it is that of one side.
 /// J. E. Tolsma and P. I. Barton, Ind. Eng. Chem. Res. 41 (2002) 181; W. F. Feehery, J. E. Tolsma and P. I.
 /// Barton, Appl. Numer. Math. 25 (1997) 41: staggered corrector for sensitivities of implicit steps.
@@ -32,14 +33,17 @@ struct NeighbourPhase {
   ThermalState state;  ///< at t_n, then at t_{n+1}
 };
 
+/// Of the residual, with which the error of a derivative is that of second order in the change of the datum.
+inline constexpr double k_sensitivity_accuracy = 2e-6;
+
 class StepSensitivity {
  public:
   /// @param phase  the phase that solves the steps, which keeps its stages; must outlive this object
-  /// @param exact  the tangents of its contributions are exact; else what they leave of a residual is taken
-  /// up
-  ///               by further solves
+  /// @param exact     the tangents of its contributions are exact; else what they leave of a residual is
+  ///                  taken up by further solves
+  /// @param accuracy  residual over that before the first solve, of one neighbour a stage, that will do then
   /// Throws InputError for a phase that has no derivative here: whose nodes do not hold the heat.
-  StepSensitivity(ThermalPhase& phase, bool exact);
+  StepSensitivity(ThermalPhase& phase, bool exact, double accuracy = k_sensitivity_accuracy);
 
   /// Brings the states of the neighbours through a step that the phase has taken. Nothing is solved between
   /// the step and this call. Throws StepRejected where a linear system has no solution. Collective.
@@ -62,8 +66,8 @@ class StepSensitivity {
   };
   void advance_stage(const Stage& stage, const ThermalState& old, const ThermalState& before,
                      const ThermalState& now, std::span<Neighbour> neighbours);
-  static void begin(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
-                    const ThermalState& before, const ThermalState& now);
+  static void begin(ThermalPhase& phase, const Stage& stage, const ThermalState& from,
+                    const ThermalState& old, const ThermalState& before, const ThermalState& now);
   static void add_residual(ThermalPhase& phase, const Stage& stage, const ThermalState& old,
                            const ThermalState& before, const ThermalState& end, std::vector<double>& f);
   ThermalState guess(const ThermalPhase& neighbour, const ThermalState& now) const;
@@ -77,6 +81,7 @@ class StepSensitivity {
 
   ThermalPhase& phase_;
   bool exact_;
+  double accuracy_;
   std::vector<double> to_heat_;  ///< dv/dH, zero on a plateau, [owned node]
   std::vector<double> slope_;    ///< dv/dΘ, [local node]
   std::vector<char> held_;       ///< δv is none, [owned node]

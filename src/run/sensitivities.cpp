@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "cases/case_materials.hpp"
 #include "heat/quantities.hpp"
+#include "mechanics/quantities.hpp"
 #include "results/fields/state_fields.hpp"
 #include "results/tables/probes.hpp"
 #include "setup/mesh_input.hpp"
 #include "setup/run_input.hpp"
+#include "setup/scheme_input.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
@@ -21,18 +22,21 @@ namespace solidus::run {
 
 namespace {
 
-constexpr std::string_view k_temperature = heat::fields::k_temperature.name;
+/// The fields whose derivatives are known: the unknowns of the two phases.
+bool differentiated(const results::Sampled& sampled) {
+  return sampled.field == heat::fields::k_temperature.name ||
+         sampled.field == mechanics::fields::k_displacement.name;
+}
 
-/// The probes of a case that sample temperatures, at points and over groups.
-std::vector<results::Probe> temperature_probes(const cases::CaseSpec& spec) {
+/// The probes of a case that sample them, at points and over groups.
+std::vector<results::Probe> probes_of_unknowns(const cases::CaseSpec& spec) {
   std::vector<results::Probe> probes;
   // Other fields are left out without a complaint: a case may have probes of stresses in addition to those
   // whose derivatives are wanted.
   for (const results::Probe& probe : setup::probes(spec)) {
     const auto* point = std::get_if<results::PointProbe>(&probe);
     const auto* group = std::get_if<results::GroupProbe>(&probe);
-    if ((point != nullptr && point->field == k_temperature) ||
-        (group != nullptr && group->field == k_temperature))
+    if ((point != nullptr && differentiated(*point)) || (group != nullptr && differentiated(*group)))
       probes.push_back(probe);
   }
   return probes;
@@ -51,6 +55,19 @@ void check_case(const cases::CaseSpec& spec) {
     throw InputError(where, "derivatives are computed on one process", "solidus without mpirun");
 }
 
+/// Of bodies that deform the order of the phases is that in which coupling::StepSensitivity takes a step.
+void check_scheme(const setup::Case& base, const setup::Assembly& a) {
+  const cases::CaseSpec& spec = base.spec;
+  if (!spec.has_mechanics()) return;
+  // The simultaneous scheme and those that iterate solve other equations; heat first has gaps of its own.
+  const bool split =
+      spec.coupling.scheme->name() == "isentropic" || spec.coupling.scheme->name() == "isothermal";
+  if (!split || !setup::lags_a_step(spec, setup::keeps_strain(spec, a.materials, a.start)))
+    throw InputError(
+        {base.file.string(), 0, 0}, "derivatives are known of splits that solve deformation first",
+        "scheme = \"isentropic\" or \"isothermal\" with order = \"mechanics_first\" in [coupling]");
+}
+
 bool same_mesh(const mesh::Mesh& a, const mesh::Mesh& b) {
   // Coordinates that are equal to the last bit mean the same divisions; a neighbour with other places would
   // need an interpolation that no derivative survives.
@@ -65,7 +82,7 @@ struct Sensitivities::Reader {
 
   Reader(const cases::CaseSpec& spec, const setup::Assembly& a)
       : fields(a.mesh, a.phases, spec.analysis.kind),
-        probes(a.mesh, spec.analysis.kind, temperature_probes(spec), fields.bodies()) {}
+        probes(a.mesh, spec.analysis.kind, probes_of_unknowns(spec), fields.bodies()) {}
   std::vector<double> values(const coupling::State& state) {
     fields.update(state);
     return probes.values(fields.bodies());
@@ -96,6 +113,7 @@ struct Sensitivities::Built {
 Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
                              std::vector<Neighbour> neighbours, const std::filesystem::path& file) {
   check_case(base.spec);
+  check_scheme(base, a);
   if (!base.spec.depositions.empty())
     throw InputError(base.spec.depositions.front().where, "derivatives of bodies that grow are not there yet",
                      "a case without [[deposition]]");
@@ -107,9 +125,11 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
   reader_ = std::make_unique<Reader>(base.spec, a);
   const std::vector<results::CsvColumn>& probed = reader_->probes.columns();
   if (probed.empty())
-    throw InputError({base.file.string(), 0, 0}, "no probe samples the temperature, of which derivatives are",
+    throw InputError({base.file.string(), 0, 0},
+                     "no probe samples a temperature or displacement, of which derivatives are",
                      "[[probe]] with field = \"temperature\"");
-  std::vector<coupling::HeatSensitivity::Neighbour> followed;
+  if (base.spec.has_mechanics()) twin_ = std::make_unique<Built>(Neighbour{"", 1, base});
+  std::vector<coupling::StepSensitivity::Neighbour> followed;
   std::vector<results::CsvColumn> columns{{"time", "s"}};
   // Each neighbour is built as a whole and then compared: a parameter that moves nodes is refused with its
   // name, not found by a wrong number later.
@@ -120,12 +140,13 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
       throw InputError({base.file.string(), 0, 0},
                        fmt::format("the parameter '{}' changes the mesh or the probes", n.name),
                        "data, conditions and places of probes");
-    followed.push_back({&n.a.phases, n.state.heat});
+    followed.push_back({&n.a.phases, n.state});
     // One column for each parameter and probe, in the order in which add_row() has the values.
     for (const results::CsvColumn& column : probed)
       columns.push_back({column.header() + " by " + n.name, ""});
   }
-  heat_.emplace(a.phases, std::move(followed));
+  if (a.phases.heat != nullptr) a.phases.heat->keep_stages(true);
+  steps_.emplace(twin_ ? twin_->a.phases : a.phases, std::move(followed));
   // The table is opened by the first process alone: two that wrote one file would spoil it.
   if (processes::rank() == 0) table_.emplace(file, std::move(columns));
 }
@@ -133,12 +154,12 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
 Sensitivities::~Sensitivities() = default;
 
 void Sensitivities::begin(const coupling::State& state) {
-  heat_->begin(state);
+  steps_->begin(state);
   add_row(state);
 }
 
 void Sensitivities::step(const coupling::StepRecord& record, const coupling::State& state) {
-  heat_->step(record, state);
+  steps_->step(record, state);
   add_row(state);
 }
 
@@ -149,8 +170,9 @@ void Sensitivities::add_row(const coupling::State& state) {
   std::vector<double> row{state.time};
   for (std::size_t i = 0; i < built_.size(); ++i) {
     Built& n = *built_[i];
-    // The neighbour's heat comes from the solver of derivatives, and its probes read it like that of any run.
-    n.state.heat = heat_->neighbours()[i].state;
+    // The neighbour's state comes from the solver of derivatives, and its probes read it like that of any
+    // run.
+    steps_->read(i, n.state);
     const std::vector<double> there = n.reader->values(n.state);
     for (std::size_t k = 0; k < here.size(); ++k) row.push_back((there[k] - here[k]) / n.change);
   }

@@ -158,7 +158,7 @@ class Lump:
     """A lump that cools, Θ = Θ_a + (Θ_0 − Θ_a) exp(−t/τ) with the rate 1/τ and the start for unknowns: a model whose
     derivatives are in closed form, in place of runs."""
 
-    forward = True
+    forward, dear = True, False
 
     def __init__(self, parameters, forward=True):
         self.parameters, self.forward, self.runs = parameters, forward, 0

@@ -209,10 +209,10 @@ class Run final : public Verb {
                        "Show the report while the run goes on, at an address of this machine alone");
     // Derivatives, and the further runs for errors.
     command()
-        .add_option(
-            "--sensitivities", a.sensitivities,
-            "Write sensitivities.csv: derivatives of probed temperatures with respect to the parameters of "
-            "this file (heat alone, steps of a given size)")
+        .add_option("--sensitivities", a.sensitivities,
+                    "Write sensitivities.csv: derivatives of probed temperatures, and displacements, by the "
+                    "parameters of "
+                    "this file (heat alone, steps of a given size)")
         ->type_name("FILE");
     command().add_flag("--sure", a.sure,
                        "Run it twice more, with longer steps and with larger elements, for the errors of the "
