@@ -59,13 +59,11 @@ void check_case(const cases::CaseSpec& spec) {
 void check_scheme(const setup::Case& base, const setup::Assembly& a) {
   const cases::CaseSpec& spec = base.spec;
   if (!spec.has_mechanics()) return;
-  // The simultaneous scheme and those that iterate solve other equations; heat first has gaps of its own.
-  const bool split =
-      spec.coupling.scheme->name() == "isentropic" || spec.coupling.scheme->name() == "isothermal";
-  if (!split || !setup::lags_a_step(spec, setup::keeps_strain(spec, a.materials, a.start)))
-    throw InputError(
-        {base.file.string(), 0, 0}, "derivatives are known of splits that solve deformation first",
-        "scheme = \"isentropic\" or \"isothermal\" with order = \"mechanics_first\" in [coupling]");
+  // Schemes that solve both phases at once or iterate lag by nothing; heat first has gaps of its own.
+  if (!setup::lags_a_step(spec, setup::keeps_strain(spec, a.materials, a.start)))
+    throw InputError({base.file.string(), 0, 0},
+                     "derivatives are known of a sequential split that solves deformation first",
+                     "order = \"mechanics_first\" in [coupling]");
 }
 
 bool same_mesh(const mesh::Mesh& a, const mesh::Mesh& b) {
