@@ -290,6 +290,8 @@ def why_differences(case, readings):
         return "the case has stages"
     if case.get("heat", {}).get("integration", "closed") != "closed":
         return "heat is held at points (heat.integration)"
-    known = ("temperature", "displacement") if deforms(case) else ("temperature",)
+    known = ["temperature"]
+    if deforms(case):
+        known.append("displacement")
     others = [r.header for r in readings if probes.get(r.header, {}).get("field") not in known]
     return f"'{Table.name(others[0])}' is no {' or '.join(known)}" if others else ""
