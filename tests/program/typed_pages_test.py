@@ -45,7 +45,7 @@ class TypedPages(ProgramTest):
         (folder / "home/solidus").symlink_to(SOURCES)
         (folder / "bin").mkdir()
         for name, text in {"bin/solidus": RUNNER.format(program=PROGRAM),
-                           "bin/srun": "#!/bin/sh\nexec mpirun -n 2 --bind-to none --oversubscribe \"$@\"\n",
+                           "bin/srun": "#!/bin/sh\n[ \"$1\" = --mpi=pmix ] && shift || exit 7\nexec mpirun -n 2 --bind-to none --oversubscribe \"$@\"\n",
                            "dev": f"#!/bin/sh\nexec {SOURCES}/dev \"$@\"\n"}.items():
             (folder / name).write_text(text)
             (folder / name).chmod(0o755)

@@ -258,6 +258,8 @@ void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const 
                           "the temperature of what is poured with it"});
       continue;
     }
+    // What a travelling source melts again, or what metal is deposited on, is meant to start solid.
+    if (!spec.sources.empty() || !spec.depositions.empty()) continue;
     findings.push_back(
         {false, spec.bodies[b].where,
          fmt::format(
@@ -373,7 +375,9 @@ FindingFamily findings_freezing() {
                "nothing is poured, and the common temperature that all bodies would reach, insulated from "
                "the surroundings, is above the solidus of one"},
               {Topic::materials, "a chill counts as a casting",
-               "its material can freeze, and it starts solid next to a body that is poured"},
+               "its material can freeze, and it starts solid next to a body that is poured; with sources "
+               "that travel and "
+               "bodies that grow nothing is said"},
               {Topic::pour, "nothing cools a casting; it does not freeze", "by the estimate"},
               {Topic::pour,
                "its surface is held above the solidus; its surroundings are hotter than that, in any stage",
