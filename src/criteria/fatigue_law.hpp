@@ -21,7 +21,7 @@ struct FatigueLaw {
   double ductility = 0, ductility_exponent = 0;             ///< ε_f', c < 0
   double mean_stress = 0;                                   ///< σ_m [Pa]
   /// A table in place of these: ranges of strain, rising, and the cycles of each, falling.
-  std::vector<double> strain, cycles;
+  std::vector<double> strain{}, cycles{};
   /// Whether the deformation of the body is computed, whose strain it then is.
   bool deforms = false;
   /// N of a range of strain, from below one up to k_most_cycles.

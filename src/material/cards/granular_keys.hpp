@@ -6,6 +6,8 @@
 
 namespace solidus::material {
 
+struct Material;
+
 const Section<GranularData>& granular_section();
 
 /// The law of the material from [granular]. Throws InputError where the material has no elastic properties,
