@@ -15,7 +15,7 @@ namespace solidus::setup {
 
 namespace {
 
-using Skins = std::vector<std::vector<mesh::BodyFace>>;  // [body]
+using Skins = std::vector<std::vector<mesh::OuterFace>>;  // [body]
 
 std::string in_mm(const mesh::Point& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
@@ -90,7 +90,7 @@ void make_sound(const cases::CaseSpec& spec, mesh::RawMesh& mesh) {
   const std::vector<char> in_contact = nodes_in_contact(spec, mesh);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const cases::BodySpec& body = spec.bodies[b];
-    std::vector<mesh::BodyFace>& skin = skins[b];
+    std::vector<mesh::OuterFace>& skin = skins[b];
     // Halves that coincide corner on corner are joined; only then are corners that still lie in a face
     // errors.
     if (const mesh::Crack crack = mesh::find_crack(mesh, skin, in_contact); crack.n_pairs > 0) {

@@ -84,16 +84,16 @@ std::vector<FacetedRegion> faceted_regions(const ClosedShells& all, const Castin
   return regions;
 }
 
-Box box_of_shells(const ClosedShells& all) {
-  Box box{all.points.front(), all.points.front()};
+ShellBox box_of_shells(const ClosedShells& all) {
+  ShellBox box{all.points.front(), all.points.front()};
   for (const Point& p : all.points)
     for (std::size_t i = 0; i < 3; ++i)
       box.low[i] = std::min(box.low[i], p[i]), box.high[i] = std::max(box.high[i], p[i]);
   return box;
 }
 
-Box box_with_mould(const ClosedShells& all, const CastingGeometry& geometry, double unit) {
-  Box box = box_of_shells(all);
+ShellBox box_with_mould(const ClosedShells& all, const CastingGeometry& geometry, double unit) {
+  ShellBox box = box_of_shells(all);
   if (geometry.mould)
     for (std::size_t i = 0; i < 3; ++i) {
       box.low[i] -= geometry.mould->walls[2 * i] / unit;
@@ -232,7 +232,7 @@ MeshingOutlook FacetedSizes::outlook(int element_order) const {
   }
   // Nodes in the middles of edges multiply them.
   if (element_order == 2) o.nodes *= k_nodes_of_second_order;
-  const Box parts = box_of_shells(all_);
+  const ShellBox parts = box_of_shells(all_);
   for (std::size_t i = 0; i < 3; ++i) o.sides[i] = unit_ * (parts.high[i] - parts.low[i]);
   return o;
 }

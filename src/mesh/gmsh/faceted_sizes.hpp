@@ -29,13 +29,13 @@ std::vector<FacetedRegion> faceted_regions(const ClosedShells& all, const Castin
                                            const std::string& path);
 
 /// Corners of a box.
-struct Box {
+struct ShellBox {
   Point low, high;
 };
 
 /// The box around all shells, and with the walls of the mould. @param unit  of the file [m]
-Box box_of_shells(const ClosedShells& all);
-Box box_with_mould(const ClosedShells& all, const CastingGeometry& geometry, double unit);
+ShellBox box_of_shells(const ClosedShells& all);
+ShellBox box_with_mould(const ClosedShells& all, const CastingGeometry& geometry, double unit);
 
 /// Sizes by the thickness of walls, in units of the file.
 class FacetedSizes {
@@ -66,7 +66,7 @@ class FacetedSizes {
   const CastingGeometry& geometry_;
   const FacetedWay& way_;
   double unit_, coarse_;
-  Box box_;
+  ShellBox box_;
   std::map<double, SizeField> fields_;                              ///< by growth
   std::map<std::string, std::vector<std::array<Point, 3>>> skins_;  ///< of bodies, outward, in small pieces
 };

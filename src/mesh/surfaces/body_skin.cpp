@@ -39,13 +39,13 @@ std::vector<Point> middles_of_some(const RawMesh& mesh, const RawGroup& group) {
 /// Counts how often a half-line from a point crosses a skin: an odd number of times from its inside.
 class RayCount {
  public:
-  RayCount(const RawMesh& mesh, const std::vector<BodyFace>& skin) : mesh_(mesh), skin_(skin) {
+  RayCount(const RawMesh& mesh, const std::vector<OuterFace>& skin) : mesh_(mesh), skin_(skin) {
     // The direction has no meaning, so that hardly any half-line meets an edge. Seen along it a face covers a
     // small part of the plane: only faces whose shadow holds the point's are looked at.
     ray_ = mesh.dimension == 2 ? Point{0.8191, 0.5736, 0} : Point{0.5771, 0.3119, 0.7548};
     across_[0] = {-ray_[1], ray_[0], 0};
     across_[1] = mesh.dimension == 2 ? Point{} : cross_product(ray_, across_[0]);
-    for (const BodyFace& face : skin) {
+    for (const OuterFace& face : skin) {
       Shadow& shadow = shadows_.emplace_back();
       for (const Index node : face.nodes)
         for (std::size_t i = 0; i < 2; ++i) {
@@ -74,7 +74,7 @@ class RayCount {
     }
   };
 
-  int crosses_edge(const Point& x, const BodyFace& edge) const {
+  int crosses_edge(const Point& x, const OuterFace& edge) const {
     const Point& p = point_of(mesh_, edge.nodes[0]);
     const Point u = difference(point_of(mesh_, edge.nodes[1]), p), w = difference(p, x);
     const double d = ray_[0] * u[1] - ray_[1] * u[0];
@@ -84,7 +84,7 @@ class RayCount {
   }
 
   /// Of the triangles of a fan around the first corner.
-  int crosses_face(const Point& x, const BodyFace& face) const {
+  int crosses_face(const Point& x, const OuterFace& face) const {
     const Point& p = point_of(mesh_, face.nodes[0]);
     int n = 0;
     for (std::size_t a = 1; a + 1 < static_cast<std::size_t>(vertex_count(face.shape)); ++a) {
@@ -101,7 +101,7 @@ class RayCount {
   }
 
   const RawMesh& mesh_;
-  const std::vector<BodyFace>& skin_;
+  const std::vector<OuterFace>& skin_;
   Point ray_{};
   std::array<Point, 2> across_{};
   std::vector<Shadow> shadows_;
@@ -126,13 +126,13 @@ std::vector<Face> outer_faces(const RawMesh& mesh, const std::string& body) {
   return outer;
 }
 
-std::vector<BodyFace> faces_on_skin(const RawMesh& mesh, const std::string& body) {
-  std::vector<BodyFace> skin;
+std::vector<OuterFace> faces_on_skin(const RawMesh& mesh, const std::string& body) {
+  std::vector<OuterFace> skin;
   for (const Face& face : outer_faces(mesh, body)) skin.push_back({face.shape, face.nodes()});
   return skin;
 }
 
-double share_inside(const RawMesh& mesh, const std::string& body, const std::vector<BodyFace>& skin) {
+double share_inside(const RawMesh& mesh, const std::string& body, const std::vector<OuterFace>& skin) {
   const std::vector<Point> samples = middles_of_some(mesh, mesh.groups.at(body));
   if (samples.empty() || skin.empty()) return 0;
   const RayCount rays(mesh, skin);

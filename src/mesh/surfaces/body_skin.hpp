@@ -13,15 +13,15 @@ namespace solidus::mesh {
 std::vector<Face> outer_faces(const RawMesh& mesh, const std::string& body);
 
 /// A face of an element that no other element of its body has.
-struct BodyFace {
+struct OuterFace {
   Shape shape = Shape::point1;
   std::vector<Index> nodes;  ///< outward
 };
 
 /// The skin of a body, in the order of its elements.
-std::vector<BodyFace> faces_on_skin(const RawMesh& mesh, const std::string& body);
+std::vector<OuterFace> faces_on_skin(const RawMesh& mesh, const std::string& body);
 
 /// The share of the elements of a body, of some of them, whose middle lies inside of a skin.
-double share_inside(const RawMesh& mesh, const std::string& body, const std::vector<BodyFace>& skin);
+double share_inside(const RawMesh& mesh, const std::string& body, const std::vector<OuterFace>& skin);
 
 }  // namespace solidus::mesh

@@ -20,14 +20,14 @@ namespace solidus::mesh {
 
 namespace {
 
-Point middle(const RawMesh& mesh, const BodyFace& face) {
+Point middle(const RawMesh& mesh, const OuterFace& face) {
   return middle_of(mesh, std::span(face.nodes).first(static_cast<std::size_t>(vertex_count(face.shape))));
 }
 
 /// The diagonal of the box around a skin.
-double extent_of_skin(const RawMesh& mesh, const std::vector<BodyFace>& skin) {
+double extent_of_skin(const RawMesh& mesh, const std::vector<OuterFace>& skin) {
   Point low = point_of(mesh, skin[0].nodes[0]), high = low;
-  for (const BodyFace& face : skin)
+  for (const OuterFace& face : skin)
     for (const Index node : face.nodes)
       for (std::size_t i = 0; i < 3; ++i) {
         low[i] = std::min(low[i], point_of(mesh, node)[i]);
@@ -38,9 +38,9 @@ double extent_of_skin(const RawMesh& mesh, const std::vector<BodyFace>& skin) {
 
 /// A length below which two points of a skin are one: rounding of files with six digits, and far below the
 /// length of any edge.
-double tolerance_of(const RawMesh& mesh, const std::vector<BodyFace>& skin) {
+double tolerance_of(const RawMesh& mesh, const std::vector<OuterFace>& skin) {
   double shortest = 1e300;
-  for (const BodyFace& face : skin) {
+  for (const OuterFace& face : skin) {
     const int n = vertex_count(face.shape);
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < a; ++b)
@@ -81,9 +81,9 @@ Point moved(const Point& x, double by) {
 
 /// [node] of the nodes of a skin that are in one place the first one; −1 for nodes that are not of the skin.
 /// Empty where no two are in one place.
-std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<BodyFace>& skin, double tolerance) {
+std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<OuterFace>& skin, double tolerance) {
   std::vector<Index> first(mesh.x.size(), -1), nodes;
-  for (const BodyFace& face : skin)
+  for (const OuterFace& face : skin)
     for (const Index node : face.nodes)
       if (Index& f = first[static_cast<std::size_t>(node)]; f < 0) {
         f = node;
@@ -117,7 +117,7 @@ std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<BodyFac
 }
 
 /// Whether a point lies in a face or an edge, away from its corners.
-bool lies_in(const Point& x, const RawMesh& mesh, const BodyFace& face, double tolerance) {
+bool lies_in(const Point& x, const RawMesh& mesh, const OuterFace& face, double tolerance) {
   const int n = vertex_count(face.shape);
   const auto corner = [&](int a) -> const Point& {
     return point_of(mesh, face.nodes[static_cast<std::size_t>(a)]);
@@ -173,7 +173,7 @@ std::size_t drop_repeated(RawGroup& group) {
 }
 
 InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodies,
-                       const std::vector<std::vector<BodyFace>>& skins, const RawGroup& surface) {
+                       const std::vector<std::vector<OuterFace>>& skins, const RawGroup& surface) {
   std::vector<char> on_surface(mesh.x.size(), 0);
   InnerFaces inner;
   std::unordered_set<FaceKey, FaceKeyHash> faces;
@@ -186,8 +186,8 @@ InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodi
     return std::ranges::all_of(nodes, [&](Index i) { return on_surface[static_cast<std::size_t>(i)] != 0; });
   };
   // What is on the skin of a body is right, and that is all of most surfaces: their inside is not looked at.
-  for (const std::vector<BodyFace>& skin : skins)
-    for (const BodyFace& face : skin)
+  for (const std::vector<OuterFace>& skin : skins)
+    for (const OuterFace& face : skin)
       if (const int n = vertex_count(face.shape);
           all_on_surface({face.nodes.data(), static_cast<std::size_t>(n)}))
         faces.erase(face_key(face.nodes.data(), n));
@@ -208,7 +208,7 @@ InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodi
   return inner;
 }
 
-Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
+Crack find_crack(const RawMesh& mesh, const std::vector<OuterFace>& skin,
                  const std::vector<char>& kept_apart) {
   Crack crack;
   if (skin.empty()) return crack;
@@ -217,9 +217,9 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
   const std::vector<Index> first = first_in_place(mesh, skin, tolerance);
   if (first.empty()) return crack;
   // Faces of the skin by the first nodes in place of their own: two with one key lie in one place.
-  std::unordered_map<FaceKey, const BodyFace*, FaceKeyHash> faces;
+  std::unordered_map<FaceKey, const OuterFace*, FaceKeyHash> faces;
   std::vector<Index> nodes;
-  for (const BodyFace& face : skin) {
+  for (const OuterFace& face : skin) {
     const bool apart = std::ranges::any_of(
         face.nodes, [&](Index i) { return kept_apart[static_cast<std::size_t>(i)] != 0; });
     if (apart) continue;
@@ -233,7 +233,7 @@ Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin,
       std::iota(crack.replaced.begin(), crack.replaced.end(), 0);
     }
     // Their nodes are to be merged.
-    for (const BodyFace* side : {other->second, &face})
+    for (const OuterFace* side : {other->second, &face})
       for (const Index i : side->nodes)
         crack.replaced[static_cast<std::size_t>(i)] = first[static_cast<std::size_t>(i)];
   }
@@ -252,14 +252,14 @@ void replace_nodes(RawMesh& mesh, const std::vector<Index>& replaced) {
     }
 }
 
-HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& skin,
+HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<OuterFace>& skin,
                            const std::vector<char>& kept_apart) {
   HangingNodes hanging;
   if (skin.empty()) return hanging;
   const double tolerance = tolerance_of(mesh, skin);
   // Cells of the size of the faces.
   double size = 0;
-  for (const BodyFace& face : skin)
+  for (const OuterFace& face : skin)
     size += length_of(difference(point_of(mesh, face.nodes[1]), point_of(mesh, face.nodes[0])));
   size /= static_cast<double>(skin.size());
   constexpr double k_least = 1e-9;  // of the extent: more cells than that are none
@@ -268,7 +268,7 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
   const Cells cells(2 * size, point_of(mesh, skin[0].nodes[0]));
   std::unordered_map<std::int64_t, std::vector<Index>> corners;
   std::unordered_set<Index> seen;
-  for (const BodyFace& face : skin)
+  for (const OuterFace& face : skin)
     for (int a = 0; a < vertex_count(face.shape); ++a)
       if (const Index node = face.nodes[static_cast<std::size_t>(a)];
           kept_apart[static_cast<std::size_t>(node)] == 0 && seen.insert(node).second)
@@ -276,7 +276,7 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& ski
                        [&](std::int64_t key) { corners[key].push_back(node); });
   // A node within a face or edge that it is no corner of hangs there.
   std::unordered_set<Index> found;
-  for (const BodyFace& face : skin) {
+  for (const OuterFace& face : skin) {
     Point low = point_of(mesh, face.nodes[0]), high = low;
     for (int a = 1; a < vertex_count(face.shape); ++a)
       for (std::size_t i = 0; i < 3; ++i) {

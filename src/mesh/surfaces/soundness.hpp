@@ -20,7 +20,7 @@ struct InnerFaces {
 };
 /// @param skins  [body] faces_on_skin of each
 InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodies,
-                       const std::vector<std::vector<BodyFace>>& skins, const RawGroup& surface);
+                       const std::vector<std::vector<OuterFace>>& skins, const RawGroup& surface);
 
 /// Faces of the skin of a body that lie on each other, corner on corner, and share no nodes: the parts on
 /// both sides were meshed apart.
@@ -30,7 +30,8 @@ struct Crack {
   std::vector<Index> replaced;  ///< [node] the one in its place; itself where it stays; empty without pairs
 };
 /// @param kept_apart  [node] faces with such a node are meant to be apart
-Crack find_crack(const RawMesh& mesh, const std::vector<BodyFace>& skin, const std::vector<char>& kept_apart);
+Crack find_crack(const RawMesh& mesh, const std::vector<OuterFace>& skin,
+                 const std::vector<char>& kept_apart);
 
 /// Puts one node in the place of another in all groups.
 void replace_nodes(RawMesh& mesh, const std::vector<Index>& replaced);
@@ -41,7 +42,7 @@ struct HangingNodes {
   std::size_t n = 0;
   Point where{};
 };
-HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<BodyFace>& skin,
+HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<OuterFace>& skin,
                            const std::vector<char>& kept_apart);
 
 /// The number of pieces of a body that have no node in common.

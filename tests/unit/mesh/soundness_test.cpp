@@ -100,7 +100,7 @@ TEST(Soundness, WhatIsThereTwiceIsLeftOut) {
 
 TEST(Soundness, FacesBetweenTwoElementsOfABodyAreInside) {
   const RawMesh mesh = sample_box(Shape::hex8);
-  const std::vector<std::vector<BodyFace>> skins = {faces_on_skin(mesh, "block")};
+  const std::vector<std::vector<OuterFace>> skins = {faces_on_skin(mesh, "block")};
   EXPECT_EQ(inner_faces(mesh, {"block"}, skins, mesh.groups.at("x_max")).n, 0u);
   // The face of the first element that its neighbour along x has too.
   RawGroup faces = mesh.groups.at("x_max");

@@ -89,7 +89,7 @@ std::size_t count(const RawMesh& raw, const std::string& name, Shape shape) {
 /// The area of the skin of a body: faces that do not match a neighbour's would be in it twice.
 double skin_area(const RawMesh& raw, const std::string& body) {
   double area = 0;
-  for (const BodyFace& face : faces_on_skin(raw, body)) {
+  for (const OuterFace& face : faces_on_skin(raw, body)) {
     EXPECT_EQ(face.shape, Shape::tri3);
     const auto x = [&](std::size_t i) { return raw.x[static_cast<std::size_t>(face.nodes[i])]; };
     Point a{}, b{};
