@@ -77,13 +77,13 @@ struct Problem {
 void measure(benchmark::State& state, Problem problem) {
   const std::vector<material::Material> materials{elastic(70e9, 2e-5), elastic(70e9, 2e-5)};
   contact::ContactPair pair(problem.mesh, problem.kind, problem.contact, std::vector<double>{70e9, 70e9});
-  Timed term(pair.mechanics());
+  Timed term(pair.parts().forces.term());
   const std::vector<double> start(problem.mesh.x.size(), 300.0);
-  problem.options.symmetric = pair.symmetric();
+  problem.options.symmetric = pair.parts().forces.symmetric();
   mechanics::MechanicalPhase phase(problem.mesh, problem.kind, materials, start, problem.conditions,
                                    problem.options, {&term});
   mechanics::MechanicalState now = phase.initial_state();
-  contact::ContactState history = pair.initial_state();
+  contact::ContactState history = pair.parts().history.initial();
   double time = 0, update = 0, whole = 0;
   int iterations = 0;
   for (auto _ : state) {
@@ -104,7 +104,7 @@ void measure(benchmark::State& state, Problem problem) {
     whole += cpu_seconds() - begin;
   }
   const auto per_cent = [&](double part) { return 100 * part / whole; };
-  state.counters["points"] = static_cast<double>(pair.sums({}).points);
+  state.counters["points"] = static_cast<double>(contact::sums(pair.view(), {}).points);
   state.counters["nodes"] = static_cast<double>(problem.mesh.n_owned_nodes);
   state.counters["iterations"] = static_cast<double>(iterations) / static_cast<double>(state.iterations());
   state.counters["forces"] = per_cent(term.residual);
