@@ -16,6 +16,7 @@
 #include "material/outside/shared_object.hpp"
 #include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/elements/law_block.hpp"
+#include "mechanics/elements/structural_points.hpp"
 
 namespace solidus {
 namespace {
@@ -80,8 +81,9 @@ struct General : material::Viscoplastic {
     material::Status status;
   };
   template <class T>
-  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const {
-    const auto r = Viscoplastic::update(p, start, strain, dt);
+  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain,
+                     const material::TimeStep& step) const {
+    const auto r = Viscoplastic::update(p, start, strain, step);
     return {r.stress,
             r.state,
             full_tangent(r),
@@ -132,7 +134,7 @@ struct Prepared {
                      .old_history = &history,
                      .start_history = &history,
                      .dt = 1.0,
-                     .effective_dt = 1.0});
+                     .effective = 1.0});
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-4 * std::sin(static_cast<double>(i));
   }
   void report(benchmark::State& state) const {
@@ -186,10 +188,11 @@ void assembly(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKin
 /// temperature, eight lanes at once.
 void structural_heat(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
   Prepared p(shape, cells, kind);
-  p.kernel->finish(p.u, p.u, {p.history});
+  std::shared_ptr<const mechanics::StructuralPoints> points;
+  p.kernel->finish(p.u, p.u, {.history = p.history, .deformation = &points});
+  const mechanics::StructuralPoints::Stage stage{{1.0, 0}, {}};
   for (auto _ : state)
-    p.kernel->add_structural_heat(mechanics::StructuralForm::entropy, p.temperature, false,
-                                  p.temperature_rate);
+    points->add_heat(mechanics::StructuralForm::entropy, stage, p.temperature, false, p.temperature_rate);
   p.report(state);
 }
 
