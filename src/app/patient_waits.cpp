@@ -24,8 +24,9 @@ namespace {
 
 using Nanoseconds = std::int64_t;
 
-/// Looks that follow each other sooner than this are of one wait. MUMPS looks for messages at every front that
-/// it works on, some microseconds apart, and does not wait then.
+/// Looks that follow each other sooner than this are of one wait. MUMPS looks for messages at every front
+/// that it works on, some microseconds apart, and does not wait then: with longer intervals small castings
+/// slow down.
 constexpr Nanoseconds k_one_wait = 1'000;
 /// So long a wait looks without sleeping: messages between processes that are even take 1 to 20 µs.
 constexpr Nanoseconds k_looks = 50'000;

@@ -20,7 +20,7 @@ double heat_content(const heat::ThermalPhase& phase, const heat::ThermalState& s
 }
 
 double energy_scale(const EnergyAudit& sum, double heat_content) {
-  // What bodies bring that come is as much at hand as what was there.
+  // Heat that new bodies bring counts like the heat that was there at the start.
   const double at_hand = heat_content + std::abs(sum.bodies.poured);
   double scale = std::max(sum.heat_exchanged, k_at_rest * at_hand);
   for (const double energy :

@@ -39,7 +39,7 @@ class DieLife : public Criterion {
   CriterionRecord restart(const CriterionRecord& before, const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
   std::span<const quantities::Quantity* const> fields() const override;
-  /// Of the last shot that is complete or of the present one so far, whichever range is larger.
+  /// Fills the range of strain of the last complete shot or of the present one, whichever is larger.
   void fill(const CriterionInput& now, const CriterionRecord& record,
             std::span<const std::span<double>> values) const override;
   /// The largest range and the fewest shots, with their places.

@@ -258,7 +258,7 @@ void cold_castings(const cases::CaseSpec& spec, const setup::Assembly& a, const 
                           "the temperature of what is poured with it"});
       continue;
     }
-    // What a travelling source melts again, or what metal is deposited on, is meant to start solid.
+    // A body that a travelling source melts again, or on which metal is deposited, starts solid on purpose.
     if (!spec.sources.empty() || !spec.depositions.empty()) continue;
     findings.push_back(
         {false, spec.bodies[b].where,

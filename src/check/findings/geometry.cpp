@@ -98,7 +98,7 @@ void shared_nodes(const cases::CaseSpec& spec, const setup::Assembly& a, const C
       const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
                                     [](const setup::ContactMeasures& c) { return c.shared_nodes > 0; });
       if (told) continue;
-      // What is deposited grows on what is there, and is one with it.
+      // Deposited metal grows on the body below it and shares its nodes on purpose.
       if (is_deposited(spec, spec.bodies[b]) || is_deposited(spec, spec.bodies[other])) continue;
       // Metals that are poured together may share nodes, and then want one temperature.
       const bool one_metal =

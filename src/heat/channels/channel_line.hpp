@@ -39,7 +39,7 @@ class ChannelLine {
     double length = 0;  ///< [m]; of a ring 2π r, of a bore through the plane one metre
     double inside = 0;  ///< share of its wall that lies in the body
   };
-  /// What a station takes from an owned node.
+  /// The weight with which an owned node counts for a station.
   struct Share {
     Index node = 0;
     std::size_t station = 0;

@@ -100,7 +100,7 @@ Channels::Fluid Channels::march(One& one, std::span<const double> temperature,
     next.film[s] = nusselt(c.law, c.laminar, reynolds, c.fluid.prandtl(fluid), one.fluid.taken[s] >= 0) *
                    c.fluid.conductivity.value(fluid) / c.diameter;
   }
-  // What the nodes of each station conduct, and their mean temperature by it.
+  // Each station sums the conductances of its nodes, and their temperatures weighted by these.
   std::vector<double> sums(2 * n, 0.0);
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const ChannelLine::Share& share = shares[i];
