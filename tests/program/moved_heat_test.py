@@ -52,6 +52,19 @@ class MovedHeat(ProgramTest):
         result = solidus("check", "case.toml", "--heat-only", *ALONG, "--set", "heat.integration=open", cwd=self.folder)
         self.assertEqual(result.returncode, 1)
         self.assertIn("the open rule cannot yet", result.stderr)
+        result = solidus("check", "case.toml", "--heat-only", *ALONG, "--set", "criteria.follow=false", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no feeding is followed", result.stderr)
+        result = solidus("check", str(SOURCES / "cases/riser_and_pipe"), "--heat-only", *ALONG, "--set",
+                         'body.riser.material="nodular_iron"', cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("'casting' and 'riser' are of two materials", result.stderr)
+        staged = case(CASTINGS[0]).replace('until = "solid"\nend = "60 min"\n', "")
+        self.write("stages.toml", 'stage = [{name = "pour", duration = "9 s"}, {name = "cool", duration = "9 s"}]\n'
+                   + staged + "[feeding]\nmoves_heat = true\n")
+        result = solidus("check", "stages.toml", "--heat-only", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("not with stages, shots or bodies that grow", result.stderr)
 
 
 if __name__ == "__main__":
