@@ -7,6 +7,7 @@ docs/theory/calibration.md the equations.
 
 import argparse
 import json
+import os
 from pathlib import Path
 import subprocess
 import sys
@@ -103,13 +104,45 @@ def check_amount(calibration, readings):
                           "[[observation]] needs 'noise'")
 
 
-def search_and_fit(model, readings, calibration, say):
-    """The fit; where noise is not stated and there are priors, with the noise that the residuals have."""
+def rough_start(model, measured, sigma, calibration, say):
+    """Where the search ends with runs that cost little: a start that lies near."""
+    say("the search begins with coarse runs: " + ", ".join(calibration.coarse))
+    search = Search(model, measured, sigma, calibration.runs, say)
+    found = fit(search, calibration.loss, calibration.loss_scale, rough=True)
+    say("the case itself follows, from " + ", ".join(f"{p.name} {value:.4g}" for p, value in zip(model.parameters, found.theta)))
+    return search.scaled(found.theta)
+
+
+def processor_seconds():
+    """Of all runs that have ended."""
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+def check_coarse(case_name, words, calibration, case, readings, forward):
+    """The words of coarse runs. Throws ResultError where such a run has not what the fit needs of it."""
+    coarser = words + [word for assignment in calibration.coarse for word in ("--set", assignment)]
+    coarse = resolved_case(resolve(case_name, coarser))
+    place = f"{calibration.path}: 'coarse'"
+    if end_of(coarse) != end_of(case) or set(probes_of(coarse)) != set(probes_of(case)):
+        raise ResultError(f"{place}: coarse runs have the time.end and the probes of the case")
+    reason = why_differences(coarse, readings) if forward else ""
+    if reason:
+        raise ResultError(f"{place}: coarse runs have no derivatives: {reason}")
+    return coarser
+
+
+def search_and_fit(model, readings, calibration, say, coarse=None):
+    """The fit; where noise is not stated and there are priors, with the noise that the residuals have.
+
+    coarse: a model whose runs cost little, with which the search begins.
+    """
     measured = np.concatenate([r.values for r in readings])
     stated = all(r.noise is not None for r in readings)
     sigma = np.concatenate([np.full(len(r.values), r.noise or 1.0) for r in readings])
+    start = None if coarse is None else rough_start(coarse, measured, sigma, calibration, say)
     search = Search(model, measured, sigma, calibration.runs, say)
-    found = fit(search, calibration.loss, calibration.loss_scale)
+    found = fit(search, calibration.loss, calibration.loss_scale, start=start)
     priors = any(p.prior is not None for p in calibration.parameters())
     for _ in range(REWEIGHTED if priors and not stated else 0):
         scale = evaluate(found, calibration.parameters(), readings, calibration.confidence).scale
@@ -148,18 +181,26 @@ def calibrate(options, say):
     name = Path(case_folder(options.case)).name
     folder = options.output or options.results_root / "results" / name / "calibrate"
     folder.mkdir(parents=True, exist_ok=True)
-    model = Model(options.case, words, calibration, readings, folder / "runs", jobs, forward, forward and deforms(case))
-    start = time.monotonic()
-    found = search_and_fit(model, readings, calibration, say)
+    dear = forward and deforms(case)
+    model = Model(options.case, words, calibration, readings, folder / "runs", jobs, forward, dear)
+    coarse = None
+    if calibration.coarse:
+        coarser = check_coarse(options.case, words, calibration, case, readings, forward)
+        coarse = Model(options.case, coarser, calibration, readings, folder / "coarse_runs", jobs, forward, dear)
+    start, before = time.monotonic(), processor_seconds()
+    found = search_and_fit(model, readings, calibration, say, coarse)
     statistics = evaluate(found, calibration.parameters(), readings, calibration.confidence)
-    cost = {"runs": model.runs, "with_derivatives": model.with_derivatives, "seconds": round(time.monotonic() - start, 3),
+    cost = {"runs": model.runs, "with_derivatives": model.with_derivatives,
+            "coarse_runs": coarse.runs if coarse else 0, "seconds": round(time.monotonic() - start, 3),
+            "processor_seconds": round(processor_seconds() - before, 3),
             "derivatives": "forward" if forward else "differences"}
     write(calibration, options, model, readings, found, statistics, cost, folder)
     say("")
     say(calibrate_result.text(statistics, found, calibration.confidence))
     if not found.converged or found.message:
         say(f"  {'the search has not ended' if not found.converged else 'the search has ended'}: {found.message}")
-    say(f"{model.runs} runs{f', {model.with_derivatives} of them with derivatives' if model.dear else ''}, {cost['seconds']:.0f} s; results in {folder}")
+    say(f"{model.runs} runs{f', {model.with_derivatives} of them with derivatives' if model.dear else ''}"
+        f"{f', after {coarse.runs} coarse ones' if coarse else ''}, {cost['seconds']:.0f} s; results in {folder}")
 
 
 def case_folder(case):

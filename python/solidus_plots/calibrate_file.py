@@ -10,7 +10,7 @@ from solidus_plots.vtu import ResultError
 
 LOSSES = ("linear", "huber", "soft_l1", "cauchy")
 KINDS = ("key", "card", "lag", "place", "clock")
-KEYS = {"title", "set", "confidence", "loss", "loss_scale", "runs", "derivatives", "logger", "observation", "unknown"}
+KEYS = {"title", "set", "coarse", "confidence", "loss", "loss_scale", "runs", "derivatives", "logger", "observation", "unknown"}
 LOGGER_KEYS = {"time", "time_unit", "begin", "each", "value", "travel", "until"}
 OBSERVATION_KEYS = {"column", "probe", "unit", "noise", "lag", "from", "until", "every", "value"}
 UNKNOWN_KEYS = {"name", "kind", "key", "also", "unit", "start", "lower", "upper", "prior", "deviation", "scale", "of", "at",
@@ -78,6 +78,7 @@ class Calibration:
     unknowns: list
     observations: list  # empty: columns that are called as probes are
     set: list
+    coarse: list  # assignments of runs that cost little, with which the search begins; empty: none
     confidence: float
     loss: str
     loss_scale: float
@@ -125,6 +126,12 @@ class _Reader:
         if not isinstance(value, list) or len(value) != count or not all(map(_number, value)):
             self.fail(f"{where}: '{key}' is a number, or a list of {count} numbers")
         return [float(v) for v in value]
+
+    def assignments(self, table, key):
+        found = table.get(key, [])
+        if not isinstance(found, list) or not all(isinstance(text, str) and "=" in text for text in found):
+            self.fail(f"'{key}' is a list of assignments as after --set, such as \"time.step=2 s\"")
+        return found
 
     def unknown(self, table):
         self.known(table, UNKNOWN_KEYS, "in an [[unknown]]")
@@ -230,5 +237,5 @@ def read_calibration(path):
     loss_scale = reader.number(table, "loss_scale", "at the top", 2.0)
     if not loss_scale > 0:
         reader.fail("'loss_scale' is above zero")
-    return Calibration(reader.path, table.get("title", ""), unknowns, observations, table.get("set", []), float(confidence),
-                       loss, loss_scale, runs, derivatives, logger)
+    return Calibration(reader.path, table.get("title", ""), unknowns, observations, reader.assignments(table, "set"),
+                       reader.assignments(table, "coarse"), float(confidence), loss, loss_scale, runs, derivatives, logger)

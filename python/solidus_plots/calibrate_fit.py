@@ -18,9 +18,11 @@ from solidus_plots.vtu import ResultError
 
 LAMBDA = 0.1  # at the start
 GOOD, POOR = 0.75, 0.25  # share of the promise with which λ falls, rises
-LONGEST = 1.5  # step of a logarithm: a factor of 4.5
+LONGEST = 1.5  # step of a logarithm: a factor of 4.5; of a rough search all of its way
 SMALL_STEP = 1e-8  # of an unknown, over its size, with which the search ends
 SMALL_GAIN = 1e-4  # promise of a step, over the mean square of a residual: a hundredth of a standard deviation
+NEGLIGIBLE = 1e-8  # the same, absolute: no unknown moves by more than 1.4e-4 of its own standard deviation
+ROUGH = 100  # times these two, with which a search of runs that are only to find a start ends
 TRIES = 8  # steps in a row that do not lower F
 
 
@@ -123,10 +125,13 @@ def _updated(jacobian, rows_before, rows, step):
     return jacobian + np.outer(rows - rows_before - jacobian @ step, step) / (step @ step)
 
 
-def fit(search, loss="linear", loss_scale=2.0, start=None):
-    """Throws ResultError where a run fails."""
+def fit(search, loss="linear", loss_scale=2.0, start=None, rough=False):
+    """rough: what is found is a start for another search. Throws ResultError where a run fails."""
     low, high = search.bounds()
     x = np.clip(search.scaled([p.start for p in search.parameters]) if start is None else start, low, high)
+    if rough:  # what coarse runs do not determine could go to where no reading feels it, and would stay there
+        low = np.where(search.logarithmic, np.maximum(low, x - LONGEST), low)
+        high = np.where(search.logarithmic, np.minimum(high, x + LONGEST), high)
     n = len(search.measured)
     sum_of = lambda rows, x: 0.5 * (loss_of(loss, loss_scale, rows) + np.sum((search.certainty * (x - search.prior)) ** 2))
     # The first point has exact derivatives, and later ones where they cost no run of their own.
@@ -145,8 +150,9 @@ def fit(search, loss="linear", loss_scale=2.0, start=None):
             step = target - x
             promise = -(gradient @ step + 0.5 * step @ matrix @ step)
             size = np.where(search.logarithmic, 1.0, np.maximum(np.abs(x), 1e-300))
-            if np.all(np.abs(step) <= SMALL_STEP * size) or promise <= SMALL_GAIN * 2 * value / max(n, 1):
-                if fresh or np.all(step == 0):
+            enough = (ROUGH if rough else 1) * max(SMALL_GAIN * 2 * value / max(n, 1), NEGLIGIBLE)
+            if np.all(np.abs(step) <= SMALL_STEP * size) or promise <= enough:
+                if fresh or rough or np.all(step == 0):
                     converged, message = True, ""
                     break
                 # The last word is that of derivatives at the point itself.

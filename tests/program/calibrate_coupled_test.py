@@ -135,13 +135,21 @@ class Coupled(ProgramTest):
                                                                  for row in zip(*(table[name] for name in names)))]))
         observed = "".join(f'[[observation]]\ncolumn = "{name.partition("[")[0]}"\nprobe = "{name.partition("[")[0]}"\n'
                            f'noise = {noise}\n' for name, noise in zip(PROBES, (0.5, 0.5, 0.5, 1e-4)))
-        self.write("calibrate.toml", observed + UNKNOWNS)
+        coarse = 'coarse = ["time.step=4 s"]\n'
+        self.write("calibrate.toml", coarse + observed + UNKNOWNS)
         said = self.done("calibrate", "case.toml", "measured.csv", "-o", "out", *truth)
         self.assertIn("derivatives by forward differentiation", said)
+        self.assertIn("the search begins with coarse runs: time.step=4 s", said)
         found = json.loads((self.folder / "out/calibrate.json").read_text())
         np.testing.assert_allclose([u["value"] for u in found["unknowns"]], TRUE, rtol=1e-5)
-        self.assertLessEqual(found["runs"], 15)
+        # From the flat start it takes fifteen.
+        self.assertLessEqual(found["runs"], 10)
+        self.assertGreater(found["coarse_runs"], 3)
         self.assertLess(found["with_derivatives"], found["runs"])
+        self.write("calibrate.toml", coarse.replace("time.step=4 s", "time.end=20 s") + observed + UNKNOWNS)
+        result = solidus("calibrate", "case.toml", "measured.csv", "-o", "out", *truth, cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("'coarse': coarse runs have the time.end and the probes of the case", result.stderr)
 
     def test_what_has_no_derivatives_says_why(self):
         self.write("parameters.toml", '[[parameter]]\nname = "a"\nchange = 1e-6\nset = ["vary.body.part.density=1.000001"]\n')

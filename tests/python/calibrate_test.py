@@ -110,6 +110,7 @@ class Files(Folder):
                 (("noise = \"no\"\n", ""), None),
                 (("start = 100", "start = 100\nlower = 200"), "'start' 100 lies within the bounds 200 to inf"),
                 (("start = 100", "start = 100\nprior = 90"), "a prior is a value, 'prior', and its standard deviation"),
+                (("[logger]", "coarse = \"time.step=2 s\"\n[logger]"), "'coarse' is a list of assignments as after --set"),
                 (("start = 100", "start = 100\nat = [1, 2]"), "the points of a table have 'of'")):
             text = CALIBRATION.replace("noise = \"no\"\n", "") if "noise" not in change[0] else CALIBRATION
             file = self.write("calibrate.toml", text.replace(*change))
@@ -213,6 +214,13 @@ class Fits(unittest.TestCase):
         found = fit(Search(model, measured, np.ones(len(measured)), 60))
         np.testing.assert_allclose(found.theta, self.TRUE, rtol=1e-6)
         self.assertEqual(len(refused), 1)
+
+    def test_a_rough_search_stays_where_readings_still_feel_the_unknowns(self):
+        model = Lump([parameter("rate", 0.03, logarithmic=True, low=0.0), parameter("start", 600.0)])
+        coarse = fit(Search(model, np.full(len(model.time), 680.0), np.ones(len(model.time)), 60), rough=True)
+        self.assertAlmostEqual(coarse.theta[0], 0.03 * np.exp(-1.5), delta=1e-12)
+        search = Search(model, model.predict(self.TRUE, False).values, np.ones(len(model.time)), 60)
+        np.testing.assert_allclose(fit(search, start=search.scaled(coarse.theta)).theta, self.TRUE, rtol=1e-6)
 
     def test_updated_derivatives_find_it_too(self):
         found, _ = self.found(forward=False)
