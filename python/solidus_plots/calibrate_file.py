@@ -12,7 +12,8 @@ LOSSES = ("linear", "huber", "soft_l1", "cauchy")
 KINDS = ("key", "card", "lag", "place", "clock")
 KEYS = {"title", "set", "coarse", "confidence", "loss", "loss_scale", "runs", "derivatives", "logger", "observation", "unknown"}
 LOGGER_KEYS = {"time", "time_unit", "begin", "each", "value", "travel", "until"}
-OBSERVATION_KEYS = {"column", "probe", "unit", "noise", "lag", "from", "until", "every", "value"}
+OBSERVATION_KEYS = {"column", "probe", "unit", "noise", "lag", "from", "until", "every", "value", "bore"}
+BORE_KEYS = {"diameter", "bead", "filling", "direction"}
 UNKNOWN_KEYS = {"name", "kind", "key", "also", "unit", "start", "lower", "upper", "prior", "deviation", "scale", "of", "at",
                 "argument_unit", "observations", "probe", "direction", "property"}
 
@@ -69,6 +70,19 @@ class Observation:
     until: float = np.inf
     every: int = 1
     value: float | None = None  # a number at the end of the run in place of a column
+    place: Unknown | None = None  # of the bead in its bore
+
+
+def place_of_bead(diameter, bead, filling):
+    """Standard deviation of the place that a bead reads, along the gradient, from the axis of a bore across the gradient.
+
+    In a round hole of the conductivity k' in a metal of k with the gradient g far away the gradient is 2k/(k + k') g
+    everywhere (H. S. Carslaw and J. C. Jaeger, Conduction of Heat in Solids, 2nd ed. 1959, chapter 16): a bead beside the axis reads
+    what the metal without a hole has at that multiple of its distance. Anywhere in the hole alike, its centre is in a disc of
+    the radius (diameter − bead)/2, whose standard deviation along a line is half of that.
+    filling: k'/k.
+    """
+    return 2 / (1 + filling) * (diameter - bead) / 4
 
 
 @dataclass
@@ -149,10 +163,7 @@ class _Reader:
         if at and not (all(map(_number, at)) and all(a < b for a, b in zip(at, at[1:]))):
             self.fail(f"{where}: 'at' is a list of numbers that rise")
         parameters = self.parameters(table, name, where, kind, at)
-        direction = table.get("direction", [])
-        if kind == "place" and not (isinstance(direction, list) and 2 <= len(direction) <= 3 and all(map(_number, direction))
-                                    and any(direction)):
-            self.fail(f"{where}: 'direction' is a list of two or three numbers")
+        direction = self.direction(table, where) if kind == "place" else table.get("direction", [])
         also = table.get("also", [])
         return Unknown(name, kind, parameters, table.get("key", ""), [also] if isinstance(also, str) else also,
                        table.get("of", ""), table.get("argument_unit", ""), [float(a) for a in at],
@@ -201,7 +212,30 @@ class _Reader:
         since, until = (self.number(table, key, where) for key in ("from", "until"))
         return Observation(table.get("column", probe), probe, table.get("unit", ""), noise, lag,
                            -np.inf if since is None else since, np.inf if until is None else until, every,
-                           self.number(table, "value", where))
+                           self.number(table, "value", where), self.bore(table, probe, where))
+
+    def bore(self, table, probe, where):
+        """The place of the bead in its bore, an unknown with a prior; nothing without a bore."""
+        if "bore" not in table:
+            return None
+        bore, where = table["bore"], f"{where}: bore"
+        self.known(bore, BORE_KEYS, "in 'bore' of an [[observation]]")
+        diameter, bead, filling = (self.number(bore, key, where, default) for key, default in
+                                   (("diameter", None), ("bead", 0.0), ("filling", 0.0)))
+        if diameter is None or not 0 <= bead < diameter:
+            self.fail(f"{where} has a 'diameter' in mm, larger than that of the 'bead'")
+        if filling < 0:
+            self.fail(f"{where}: 'filling' is the conductivity of what fills it over that of the metal, no less than zero")
+        direction = self.direction(bore, where)
+        deviation = place_of_bead(diameter, bead, filling)
+        place = Parameter(f"place of {probe} in its bore", "mm", 0.0, -np.inf, np.inf, False, 0.0, deviation)
+        return Unknown(place.name, "place", [place], probe=probe, direction=direction)
+
+    def direction(self, table, where):
+        direction = table.get("direction", [])
+        if not (isinstance(direction, list) and 2 <= len(direction) <= 3 and all(map(_number, direction)) and any(direction)):
+            self.fail(f"{where}: 'direction' is a list of two or three numbers")
+        return direction
 
 
 def read_calibration(path):
@@ -219,11 +253,17 @@ def read_calibration(path):
     unknowns = [reader.unknown(entry) for entry in table.get("unknown", [])]
     if not unknowns:
         reader.fail("there is no [[unknown]]: nothing is to be found")
+    observations = [reader.observation(entry) for entry in table.get("observation", [])]
+    places = [o.place for o in observations if o.place is not None]
+    for place in places:
+        if any(u.kind == "place" and u.probe == place.probe for u in unknowns):
+            reader.fail(f"the place of '{place.probe}' is an [[unknown]] and that in its bore too: add the deviation of the bead, "
+                        f"{place.parameters[0].deviation:.3g} mm, to the one of the [[unknown]], as squares, and leave out 'bore'")
+    unknowns += places
     names = [parameter.name for unknown in unknowns for parameter in unknown.parameters]
     for name in names:
         if names.count(name) > 1:
             reader.fail(f"two unknowns are called '{name}'")
-    observations = [reader.observation(entry) for entry in table.get("observation", [])]
     confidence, runs = table.get("confidence", 0.9), table.get("runs")
     if not (_number(confidence) and 0.5 <= confidence < 1):
         reader.fail("'confidence' is a share from 0.5 to less than 1")

@@ -17,6 +17,7 @@ import numpy as np
 from solidus_plots.vtu import ResultError
 
 LAMBDA = 0.1  # at the start
+LEAST_DAMPING = 1e-10  # without effect
 GOOD, POOR = 0.75, 0.25  # share of the promise with which λ falls, rises
 LONGEST = 1.5  # step of a logarithm: a factor of 4.5; of a rough search all of its way
 SMALL_STEP = 1e-8  # of an unknown, over its size, with which the search ends
@@ -152,6 +153,9 @@ def fit(search, loss="linear", loss_scale=2.0, start=None, rough=False):
             size = np.where(search.logarithmic, 1.0, np.maximum(np.abs(x), 1e-300))
             enough = (ROUGH if rough else 1) * max(SMALL_GAIN * 2 * value / max(n, 1), NEGLIGIBLE)
             if np.all(np.abs(step) <= SMALL_STEP * size) or promise <= enough:
+                if failed == 0 and damping > LEAST_DAMPING:
+                    damping /= 10  # along a valley it is the damping that makes steps short
+                    continue
                 if fresh or rough or np.all(step == 0):
                     converged, message = True, ""
                     break

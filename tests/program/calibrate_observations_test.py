@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 import unittest
 
 import numpy as np
@@ -63,9 +64,121 @@ name = "stiffness"
 key = "vary.body.left.young_modulus"
 start = 0.8
 """
+PRESSED = """contact_law = "table"
+contact_conductance = { of = "pressure", argument_unit = "MPa", unit = "W/m2/K", points = [[0, 1500], [10, 3000], [40, 7000]] }
+"""
+BY_PRESSURE = """
+set = ['coupling.order="mechanics_first"']
+[[observation]]
+column = "T_left_open"
+noise = 0.1
+[[observation]]
+column = "T_right_open"
+noise = 0.1
+[[unknown]]
+name = "h"
+key = "contact.gap.heat.contact_conductance"
+of = "pressure"
+argument_unit = "MPa"
+at = [0, 10, 40]
+unit = "W/m2/K"
+start = 2500
+"""
 FREEZING = """
 include = "%s"
 title = "A bar freezes"
+"""
+# A quarter of a plate with an empty bore of 2 mm, of which the far edges keep the temperature of a plate without it, 2 K/mm.
+HOLE = """
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 30, 30};
+Disk(2) = {0, 0, 0, 1};
+BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
+Physical Surface("plate") = {3};
+left[] = Curve In BoundingBox{-0.01, -0.01, -0.01, 0.01, 30.01, 0.01};
+right[] = Curve In BoundingBox{29.99, -0.01, -0.01, 30.01, 30.01, 0.01};
+Physical Curve("left") = {left[]};
+Physical Curve("right") = {right[]};
+Field[1] = MathEval;
+Field[1].F = "0.08 + 0.1*(Sqrt(x*x + y*y) - 1)";
+Background Field = 1;
+Mesh.CharacteristicLengthExtendFromBoundary = 0;
+"""
+PLATE = """
+title = "A plate with a bore"
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+file = "plate.geo"
+unit = "mm"
+[time]
+steady = true
+[[body]]
+name = "plate"
+material = "metal.toml"
+initial_temperature = "400 degC"
+[[thermal_condition]]
+name = "left"
+group = "left"
+kind = "temperature"
+temperature = "400 degC"
+[[thermal_condition]]
+name = "right"
+group = "right"
+kind = "temperature"
+temperature = "460 degC"
+[[probe]]
+name = "T_wall"
+field = "temperature"
+point = ["1 mm", "0 mm"]
+unit = "degC"
+"""
+SLAB = """
+title = "A slab with a thermocouple in its middle"
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+shape = "block"
+[mesh.block]
+size = ["10 mm", "1 mm"]
+divisions = [10, 1]
+[time]
+end = "10 s"
+step = "0.5 s"
+[[body]]
+name = "block"
+material = "metal.toml"
+initial_temperature = { formula = "400 + 2000*x", unit = "degC" }
+[[thermal_condition]]
+name = "left"
+group = "x_min"
+kind = "temperature"
+temperature = "400 degC"
+[[thermal_condition]]
+name = "right"
+group = "x_max"
+kind = "temperature"
+temperature = "420 degC"
+[[probe]]
+name = "T"
+field = "temperature"
+point = ["5 mm", "0.5 mm"]
+unit = "degC"
+"""
+IN_A_BORE = """
+[[observation]]
+column = "T"
+probe = "T"
+noise = 0.1
+from = 5
+bore = { diameter = 2, bead = 0.8, filling = 0.25, direction = [1, 0] }
+[[unknown]]
+name = "hot wall"
+key = "thermal_condition.right.temperature"
+unit = "degC"
+start = 415
 """
 PROBE = """
 [[probe]]
@@ -98,6 +211,24 @@ class Observations(ProgramTest):
         self.assertIn("derivatives by differences of runs", said)
         np.testing.assert_allclose(self.found(), [1, 0.05, 1], rtol=2e-3)
 
+    def test_points_of_a_conductance_by_pressure_are_found(self):
+        # The bars of the gap, with a conductance that rises with the pressure.
+        source = SOURCES / "cases/ten_tests/closing_gap"
+        text = (source / "solidus.toml").read_text().replace('conductance = "5000 W/m2/K"\n', PRESSED)
+        for name in ("mesh.msh", "left.toml", "right.toml"):
+            text = text.replace(f'"{name}"', f'"{source / name}"')
+        self.write("bars.toml", text)
+        self.write("case.toml", BARS % "bars.toml")
+        self.done("run", "case.toml", "-o", "truth", "--set", 'coupling.order="mechanics_first"')
+        table = columns(self.folder / "truth/history.csv")
+        names = ["time[s]", "T_left_open[degC]", "T_right_open[degC]"]
+        self.write("measured.csv", "\n".join([",".join(names), *(",".join(map(repr, row)) for row in zip(*(table[n] for n in names)))]))
+        self.write("calibrate.toml", BY_PRESSURE)
+        said = self.done("calibrate", "case.toml", "measured.csv", "-o", "out")
+        self.assertIn("derivatives by forward differentiation", said)
+        np.testing.assert_allclose(self.found(), [1500, 3000, 7000], rtol=1e-6)
+        self.assertLessEqual(json.loads((self.folder / "out/calibrate.json").read_text())["runs"], 15)
+
     def test_times_of_freezing_are_observations(self):
         self.write("case.toml", FREEZING % (SOURCES / "cases/ten_tests/stefan/solidus.toml") + PROBE % (10, 10) + PROBE % (20, 20))
         self.done("run", "case.toml", "-o", "truth")
@@ -113,6 +244,29 @@ class Observations(ProgramTest):
             '[[unknown]]\nname = "k"\nkey = "vary.body.bar.conductivity"\nstart = 0.9\n')
         self.done("calibrate", "case.toml", "measured.csv", "-o", "out", "-j", "2")
         np.testing.assert_allclose(self.found(), [1, 1], rtol=5e-3)
+
+    def test_the_gradient_doubles_at_an_empty_bore(self):
+        self.write("plate.geo", HOLE)
+        shutil.copy(SOURCES / "cases/ten_tests/clamped_cube/metal.toml", self.folder)
+        self.write("case.toml", PLATE)
+        self.done("run", "case.toml", "-o", "out")
+        # The wall of the hole reads what the plate without it has at two radii from the axis: calibrate_file.place_of_bead.
+        read = columns(self.folder / "out/history.csv")["T_wall[degC]"][-1]
+        self.assertAlmostEqual((read - 400) / 2, 2.0, delta=0.02)
+
+    def test_the_bore_of_a_thermocouple_enters_the_interval(self):
+        shutil.copy(SOURCES / "cases/ten_tests/clamped_cube/metal.toml", self.folder)
+        self.write("case.toml", SLAB)
+        self.write("measured.csv", "time[s],T[degC]\n" + "".join(f"{t},{410 + 0.1 * (-1) ** t}\n" for t in range(1, 11)))
+        self.write("calibrate.toml", IN_A_BORE)
+        self.done("calibrate", "case.toml", "measured.csv", "-o", "out")
+        wall, place = json.loads((self.folder / "out/calibrate.json").read_text())["unknowns"]
+        self.assertAlmostEqual(wall["value"], 420, delta=0.1)
+        # The bead is 2/(1 + 0.25) (2 − 0.8)/4 mm from the axis in the mean of squares, where the slab has 2 K/mm; the reading in
+        # the middle has half of what the wall has.
+        of_place = 2 / 1.25 * 1.2 / 4 * 2 / 0.5
+        self.assertAlmostEqual(wall["deviation"], np.hypot(of_place, 0.1 / np.sqrt(6) / 0.5), delta=0.01 * of_place)
+        self.assertAlmostEqual(place["deviation"], 0.48, delta=0.001)
 
 
 if __name__ == "__main__":

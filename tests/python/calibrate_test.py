@@ -106,10 +106,15 @@ class Files(Folder):
         file = self.write("calibrate.toml", CALIBRATION)
         self.assertEqual(self.refused(read_calibration, file), f"{file}: [[observation]] 'T': 'noise' is a number, not 'no'")
         for change, message in (
-                (("noise = \"no\"", "noice = 1"), "unknown key 'noice' in an [[observation]]; there are column, every"),
+                (("noise = \"no\"", "noice = 1"), "unknown key 'noice' in an [[observation]]; there are bore, column, every"),
                 (("noise = \"no\"\n", ""), None),
                 (("start = 100", "start = 100\nlower = 200"), "'start' 100 lies within the bounds 200 to inf"),
                 (("start = 100", "start = 100\nprior = 90"), "a prior is a value, 'prior', and its standard deviation"),
+                (("column =", "bore = { bead = 1 }\ncolumn ="), "bore has a 'diameter' in mm, larger than that of the 'bead'"),
+                (("column =", "bore = { diameter = 2 }\ncolumn ="), "bore: 'direction' is a list of two or three numbers"),
+                (("column =", "bore = { wide = 2 }\ncolumn ="), "unknown key 'wide' in 'bore' of an [[observation]]"),
+                (("[[unknown]]", "bore = { diameter = 2, direction = [1, 0] }\n[[unknown]]\nname = \"depth\"\nkind = \"place\"\n"
+                  "probe = \"T\"\ndirection = [1, 0]\n[[unknown]]"), "the place of 'T' is an [[unknown]] and that in its bore too"),
                 (("[logger]", "coarse = \"time.step=2 s\"\n[logger]"), "'coarse' is a list of assignments as after --set"),
                 (("start = 100", "start = 100\nat = [1, 2]"), "the points of a table have 'of'")):
             text = CALIBRATION.replace("noise = \"no\"\n", "") if "noise" not in change[0] else CALIBRATION
