@@ -13,6 +13,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "numbers/index_casts.hpp"
+
 extern char** environ;
 
 namespace solidus::app {
@@ -41,7 +43,7 @@ bool take_all(int from, double seconds, std::string& text) {
     const ssize_t n = ::read(from, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return true;
-    text.append(buffer.data(), static_cast<std::size_t>(n));
+    text.append(buffer.data(), as_size(n));
   }
 }
 

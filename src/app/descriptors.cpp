@@ -11,6 +11,8 @@
 #include <cstring>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::app {
 
 namespace {
@@ -60,7 +62,8 @@ Meeting open_meeting() {
   // processes.
   socklen_t length = sizeof address.sun_family;  // no name: the system chooses one
   auto* const any = reinterpret_cast<sockaddr*>(&address);
-  if (!meeting.socket.open() || ::bind(meeting.socket.number(), any, length) != 0) return Meeting{Descriptor(), {}};
+  if (!meeting.socket.open() || ::bind(meeting.socket.number(), any, length) != 0)
+    return Meeting{Descriptor(), {}};
   // The name that was chosen is read back, without the zero in front of it.
   length = sizeof address;
   if (::getsockname(meeting.socket.number(), any, &length) != 0 ||
@@ -129,7 +132,7 @@ std::optional<ReceivedFiles> receive_files(const Descriptor& connection) {
   while (n < 0 && errno == EINTR);
   // Nothing read means that the other side has gone.
   if (n <= 0) return std::nullopt;
-  ReceivedFiles received{std::string(text.data(), static_cast<std::size_t>(n)), {}};
+  ReceivedFiles received{std::string(text.data(), as_size(n)), {}};
   // Each number that has arrived is taken into an object at once, so that it is closed whatever follows.
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr; header = CMSG_NXTHDR(&message, header)) {
     if (header->cmsg_level != SOL_SOCKET || header->cmsg_type != SCM_RIGHTS) continue;

@@ -27,6 +27,7 @@
 #include "app/descriptors.hpp"
 #include "app/forwarded_signals.hpp"
 #include "app/launched.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/free_memory.hpp"
 #include "system/input_file.hpp"
 #include "system/log.hpp"
@@ -137,7 +138,7 @@ bool Mpirun::hear(int milliseconds) {
   if (n <= 0) return false;
   // More text than this is read and dropped, so that mpirun never waits for a full pipe.
   constexpr std::size_t k_kept = 1 << 16;  // bytes
-  if (text_.size() < k_kept) text_.append(buffer.data(), static_cast<std::size_t>(n));
+  if (text_.size() < k_kept) text_.append(buffer.data(), as_size(n));
   return true;
 }
 

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "results/report/report_page.hpp"
 #include "system/errors.hpp"
 
@@ -165,7 +166,7 @@ bool Watch::hear(Visitor& visitor) {
   std::array<char, 2048> part{};
   const ssize_t n = ::recv(visitor.connection, part.data(), part.size(), MSG_DONTWAIT);
   if (n <= 0 || visitor.request.size() > k_most_request) return false;
-  visitor.request.append(part.data(), static_cast<std::size_t>(n));
+  visitor.request.append(part.data(), as_size(n));
   if (visitor.request.find("\r\n\r\n") == std::string::npos) return Clock::now() < visitor.until;
   try {
     answer(visitor.connection, reply(visitor.request));
@@ -183,7 +184,7 @@ void Watch::answer(int connection, const std::string& text) {
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t n = ::send(connection, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
     if (n <= 0) return;
-    sent += static_cast<std::size_t>(n);
+    sent += as_size(n);
   }
   // Until the other side has it: closing at once may drop what is on its way.
   ::shutdown(connection, SHUT_WR);

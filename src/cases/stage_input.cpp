@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::cases {
 
 namespace {
@@ -25,7 +27,7 @@ std::size_t find_stage(const CaseSpec& spec, const std::string& name, const Sour
   if (found == names.end())
     throw InputError(where, fmt::format("{} names an unknown stage '{}'", user, name),
                      names.empty() ? "a [[stage]] of this name" : one_of(names, name));
-  return static_cast<std::size_t>(found - names.begin());
+  return as_size(found - names.begin());
 }
 
 void check_stage(const CaseSpec& spec, const StageSpec& s) {

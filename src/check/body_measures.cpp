@@ -12,6 +12,7 @@
 #include "mesh/block_part.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::check {
@@ -31,7 +32,7 @@ double distance(const mesh::Point& a, const mesh::Point& b) {
 }
 
 const mesh::Point& at(const mesh::Mesh& mesh, Index node) {
-  return mesh.x[static_cast<std::size_t>(node)];
+  return mesh.x[as_size(node)];
 }
 
 }  // namespace
@@ -64,10 +65,10 @@ namespace {
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
   mesh::each_body_face(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     const double area = skin_area(mesh, face.vertices(), kind);
-    BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
+    BodyMeasures& body = bodies[as_size(face.body)];
     body.skin += area;
     for (const mesh::BodyFace& other : same)
-      if (other.body != face.body) body.shared[static_cast<std::size_t>(other.body)] += area;
+      if (other.body != face.body) body.shared[as_size(other.body)] += area;
   });
 }
 
@@ -85,7 +86,7 @@ void each_edge(mesh::Shape shape, const Visit& visit) {
   for (int f = 0; f < mesh::face_count(shape); ++f) {
     const auto local = mesh::face_nodes(shape, f);
     for (int i = 0; i < (corners == 2 ? 1 : corners); ++i)
-      visit(local[static_cast<std::size_t>(i)], local[static_cast<std::size_t>((i + 1) % corners)]);
+      visit(local[as_size(i)], local[as_size((i + 1) % corners)]);
   }
 }
 
@@ -118,10 +119,10 @@ void measure_nodes(const mesh::Mesh& mesh, std::vector<BodyMeasures>& bodies) {
   std::vector<BodySet> of_node(mesh.x.size(), 0);
   // Which bodies a node belongs to, as bits: a node on a common face has several.
   for (const mesh::ElementBlock& block : mesh.blocks)
-    for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)] |= bit(block.body);
+    for (const Index node : block.nodes) of_node[as_size(node)] |= bit(block.body);
   for (Index i = 0; i < mesh.n_owned_nodes; ++i)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const BodySet here = of_node[static_cast<std::size_t>(i)];
+      const BodySet here = of_node[as_size(i)];
       if ((here & bit(static_cast<int>(b))) == 0) continue;
       ++bodies[b].nodes;
       for (std::size_t d = 0; d < 3; ++d) {
@@ -178,7 +179,7 @@ std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind ki
   // Elements in parts, since the geometry of all elements of a large block at once would be most of
   // the memory of a check.
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const auto b = static_cast<std::size_t>(block.body);
+    const auto b = as_size(block.body);
     bodies[b].elements += block.n_counted;
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
       measure_part(mesh, kind, part, bodies[b], edges[b], n_edges[b]);
@@ -202,7 +203,7 @@ double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const 
         const Index* nodes = part.element(e);
         all += volume;
         if (std::all_of(nodes, nodes + mesh::node_count(part.shape),
-                        [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; }))
+                        [&](Index node) { return marked[as_size(node)] != 0; }))
           between += volume;
       }
     });

@@ -12,6 +12,7 @@
 #include "cases/interface_library.hpp"
 #include "check/coupling_estimate.hpp"
 #include "contact/interface/heat_transfer.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/body_input.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/scheme_input.hpp"
@@ -43,9 +44,7 @@ results::BodyOverview body_overview(const cases::BodySpec& spec, const BodyMeasu
 }
 
 std::string name_of(const cases::CaseSpec& spec, int body) {
-  return body >= 0                         ? spec.bodies[static_cast<std::size_t>(body)].name
-         : body == setup::k_several_bodies ? "several"
-                                           : "";
+  return body >= 0 ? spec.bodies[as_size(body)].name : body == setup::k_several_bodies ? "several" : "";
 }
 
 /// "1000 W/m2/K", "50 to 80 W/m2/K".

@@ -10,6 +10,7 @@
 
 #include "contact/interface/heat_transfer.hpp"
 #include "heat/loads/surface_heat.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/body_input.hpp"
 #include "setup/heat_input.hpp"
 
@@ -134,7 +135,7 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const Surroundings& in) {
     const auto conductance = conductance_of(contact, a, sides);
     // Another body is warmed by what it takes; its temperatures at the start bound the estimate.
     if (other >= 0) {
-      skin.other = static_cast<std::size_t>(other);
+      skin.other = as_size(other);
       skin.low = a.start[*skin.other].low;
       skin.high = a.start[*skin.other].high;
       skin.conductance = conductance;
@@ -172,7 +173,7 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Surroundings& in
     // Points of the skin are the nodes that both bodies have, from the owners alone.
     const std::vector<char> here = nodes_of(a.mesh, body), there = nodes_of(a.mesh, other);
     std::vector<mesh::Point> points;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(a.mesh.n_owned_nodes); ++i)
+    for (std::size_t i = 0; i < as_size(a.mesh.n_owned_nodes); ++i)
       if (here[i] != 0 && there[i] != 0) points.push_back(a.mesh.x[i]);
     skin.points = setup::gather(points);
     skins.push_back(std::move(skin));
@@ -207,7 +208,7 @@ std::vector<char> nodes_of(const mesh::Mesh& mesh, std::size_t body) {
   std::vector<char> mine(mesh.x.size(), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == static_cast<int>(body))
-      for (const Index node : block.nodes) mine[static_cast<std::size_t>(node)] = 1;
+      for (const Index node : block.nodes) mine[as_size(node)] = 1;
   return mine;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mechanics/elements/structural_points.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "setup/dynamics_input.hpp"
@@ -41,7 +42,7 @@ bool axially_held(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
     const bool axial = c.kind == cases::MechanicalConditionSpec::Kind::displacement && (c.uy || c.uz);
     const auto nodes = mesh.node_sets.find(c.group);
     if (!axial || nodes == mesh.node_sets.end()) continue;
-    for (const Index node : nodes->second) held[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : nodes->second) held[as_size(node)] = 1;
   }
   const auto owned = held.begin() + mesh.n_owned_nodes;
   return !parallel::any_process(std::find(held.begin(), owned, 0) != owned);

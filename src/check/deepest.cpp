@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "check/cooled_skin.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/skin_measures.hpp"
 #include "system/processes.hpp"
@@ -46,7 +47,7 @@ Deepest deepest_below(const mesh::Mesh& mesh, std::size_t body, const std::vecto
   // distance needs a message.
   const std::vector<char> of_body = nodes_of(mesh, body);
   std::vector<std::size_t> nodes;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i)
+  for (std::size_t i = 0; i < as_size(mesh.n_owned_nodes); ++i)
     if (of_body[i] != 0) nodes.push_back(i);
   // Both are thinned to a fixed number, which bounds the time of a check by the product of the two.
   const std::size_t every = 1 + nodes.size() / k_most_nodes, stride = 1 + cloud.size() / k_most_points;

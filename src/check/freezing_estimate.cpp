@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::check {
 
 namespace {
@@ -169,7 +171,7 @@ class Line {
     double resistance =
         cell.own_half / cell.conductivity->value(own) + cell.parent_half / parent.conductivity->value(other);
     if (cell.mould >= 0) {
-      const MouldSide& mould = problem_.moulds[static_cast<std::size_t>(cell.mould)];
+      const MouldSide& mould = problem_.moulds[as_size(cell.mould)];
       double h = mould.conductance(0, other, own);
       // Half of a skin rests on its mould, by weight or because it shrinks onto a core.
       if (mould.may_open) h = (h + mould.conductance(gap(), other, own)) / 2;
@@ -204,12 +206,10 @@ class Line {
     for (std::size_t i = 0; i < n; ++i) {
       const Cell& cell = cells_[i];
       if (cell.outside >= 0)
-        if (const auto& heat = problem_.moulds[static_cast<std::size_t>(cell.outside)].outer_heat)
-          load(i, heat);
-      if (cell.neighbour >= 0)
-        load(i, problem_.neighbours[static_cast<std::size_t>(cell.neighbour)].heat, cell.volume);
+        if (const auto& heat = problem_.moulds[as_size(cell.outside)].outer_heat) load(i, heat);
+      if (cell.neighbour >= 0) load(i, problem_.neighbours[as_size(cell.neighbour)].heat, cell.volume);
       if (cell.parent < 0) continue;
-      const auto p = static_cast<std::size_t>(cell.parent);
+      const auto p = as_size(cell.parent);
       // What one cell loses its parent gets, so that the sum is conserved exactly.
       const double g = conductance(cell, cells_[p], t[i], t[p]), q = g * (t[i] - t[p]);
       residual[i] += q;
@@ -221,7 +221,7 @@ class Line {
     }
     // Children come before their parents: one sweep eliminates, one solves.
     for (std::size_t i = 0; i + 1 < n; ++i) {
-      const auto p = static_cast<std::size_t>(cells_[i].parent);
+      const auto p = as_size(cells_[i].parent);
       diagonal[p] -= down[i] * up[i] / diagonal[i];
       residual[p] -= down[i] * residual[i] / diagonal[i];
     }
@@ -229,7 +229,7 @@ class Line {
     double change = 0;
     std::vector<double> step(n);
     for (std::size_t i = n; i-- > 0;) {
-      const double from_parent = i + 1 < n ? up[i] * step[static_cast<std::size_t>(cells_[i].parent)] : 0.0;
+      const double from_parent = i + 1 < n ? up[i] * step[as_size(cells_[i].parent)] : 0.0;
       step[i] = (-residual[i] - from_parent) / diagonal[i];
       cells_[i].enthalpy += step[i];
       change = std::max(change, std::abs(step[i]));
@@ -264,7 +264,7 @@ Drops drops(const Line& line, const FreezingProblem& problem) {
   const auto main =
       std::max_element(problem.moulds.begin(), problem.moulds.end(),
                        [](const MouldSide& a, const MouldSide& b) { return a.share < b.share; });
-  const double skin = line.mould_skin(static_cast<std::size_t>(main - problem.moulds.begin()));
+  const double skin = line.mould_skin(as_size(main - problem.moulds.begin()));
   d.interface = line.skin() - skin;
   d.mould = skin - main->start;
   return d;

@@ -14,6 +14,7 @@
 #include "mesh/block_part.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/nearest_point.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -56,7 +57,7 @@ mesh::Point centre_of(const mesh::Mesh& mesh, std::span<const Index> vertices) {
   mesh::Point centre{};
   for (const Index v : vertices)
     for (std::size_t d = 0; d < 3; ++d)
-      centre[d] += mesh.x[static_cast<std::size_t>(v)][d] / static_cast<double>(vertices.size());
+      centre[d] += mesh.x[as_size(v)][d] / static_cast<double>(vertices.size());
   return centre;
 }
 
@@ -67,7 +68,7 @@ void each_sample(const mesh::Mesh& mesh, std::span<const Index> vertices, const 
   const mesh::Point centre = centre_of(mesh, vertices);
   visit(centre);
   for (const Index v : vertices) {
-    mesh::Point x = mesh.x[static_cast<std::size_t>(v)];
+    mesh::Point x = mesh.x[as_size(v)];
     for (std::size_t d = 0; d < 3; ++d) x[d] = 0.5 * (x[d] + centre[d]);
     visit(x);
   }
@@ -84,7 +85,7 @@ template <class Visit>
 void each_element(const mesh::Mesh& mesh, AnalysisKind kind, std::size_t body, const Visit& visit) {
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != static_cast<int>(body)) continue;
-    const auto vertices = static_cast<std::size_t>(mesh::vertex_count(block.shape));
+    const auto vertices = as_size(mesh::vertex_count(block.shape));
     mesh::for_parts(block, [&](const mesh::ElementBlock& part, Index) {
       const mesh::BlockGeometry geometry(mesh, part, kind, mesh::stiffness_rule(part.shape));
       for (Index e = 0; e < part.n_counted; ++e)
@@ -121,7 +122,7 @@ std::vector<Piece> pieces_of(const mesh::Mesh& mesh, AnalysisKind kind, std::siz
   } else if (const auto found = mesh.surfaces.find(skin.surface); found != mesh.surfaces.end()) {
     for (const mesh::ElementBlock& faces : found->second.faces)
       for (Index f = 0; f < faces.n_counted && faces.body == static_cast<int>(body); ++f)
-        add(std::span(faces.element(f), static_cast<std::size_t>(mesh::vertex_count(faces.shape))));
+        add(std::span(faces.element(f), as_size(mesh::vertex_count(faces.shape))));
   }
   all = parallel::global_sum(area_of_all);
   // Five numbers a face go through the exchange of plain numbers.

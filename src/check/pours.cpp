@@ -9,6 +9,7 @@
 #include "check/deepest.hpp"
 #include "check/local_shape.hpp"
 #include "check/plate_estimate.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -168,7 +169,7 @@ void mark_nodes(const mesh::Mesh& mesh, const CooledSkin& skin, std::span<char> 
     const std::vector<char> there = nodes_of(mesh, *skin.other);
     for (std::size_t i = 0; i < there.size(); ++i) marked[i] = static_cast<char>(marked[i] | there[i]);
   } else if (const auto surface = mesh.surfaces.find(skin.surface); surface != mesh.surfaces.end()) {
-    for (const Index node : surface->second.nodes) marked[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : surface->second.nodes) marked[as_size(node)] = 1;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "contact/interface/interface_thermodynamics.hpp"
 #include "contact/points/wall_distance.hpp"
 #include "contact/surfaces/rotation.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -18,17 +19,13 @@ namespace solidus::contact {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Whether liquid metal seems to have left its wall at a point: a void has opened there. A wall that is soft
 /// by the penalty that it was given is drawn along before that. A face with a coherent node goes with the
 /// shell, and takes the points between along.
 bool seems_left(const ContactView& pair, Index point) {
-  const ContactPointState& state = pair.end.state.points[at(point)];
+  const ContactPointState& state = pair.end.state.points[as_size(point)];
   return state.suction > 0 && state.status == PointStatus::open && !pair.step.liquid.empty() &&
-         pair.step.liquid[at(point)] != 0 && -state.penetration > pair.spec.leaving_gap;
+         pair.step.liquid[as_size(point)] != 0 && -state.penetration > pair.spec.leaving_gap;
 }
 
 /// The area that has left its wall and the largest gap, where the surfaces really are: melt that has slid
@@ -45,7 +42,7 @@ void measure_left(const ContactView& pair, const ContactKinematics& kinematics, 
     // Cheap tests come first: most points of a casting in its mould have not left the wall at all.
     const ContactKinematics::Particle particle = kinematics.particle(p);
     if (!particle.counted || !seems_left(pair, p)) continue;
-    const double along = -pair.end.state.points[at(p)].penetration,
+    const double along = -pair.end.state.points[as_size(p)].penetration,
                  opened =
                      wall ? std::min(wall->opened(particle, along + pair.geometry.touching()), along) : along;
     if (!(opened > pair.spec.leaving_gap)) continue;
@@ -69,7 +66,7 @@ double interface_energy_here(const ContactView& pair) {
   double energy = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
-    const ContactPointState& state = pair.end.state.points[at(p)];
+    const ContactPointState& state = pair.end.state.points[as_size(p)];
     if (!particle.counted || !(state.temperature > 0)) continue;
     energy +=
         particle.weight *
@@ -119,11 +116,11 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
   std::array<double, 20> s{};
-  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  const auto n = as_size(pair.geometry.components());
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
     if (!particle.counted) continue;
-    const ContactPointState& state = pair.end.state.points[at(p)];
+    const ContactPointState& state = pair.end.state.points[as_size(p)];
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     const double w = particle.weight;
     // What every point has counts first: energy of its springs, work and dissipation of its particle.
@@ -148,7 +145,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     Point x = particle.position;
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       for (std::size_t i = 0; i < n; ++i)
-        x[i] += particle.share[b] * pair.end.displacement[at(particle.nodes[b]) * n + i];
+        x[i] += particle.share[b] * pair.end.displacement[as_size(particle.nodes[b]) * n + i];
     const Point force = scale(w, force_on_master(motion, state, state.pressure));
     const Point moment = cross(x, force);
     for (std::size_t i = 0; i < 3; ++i) {

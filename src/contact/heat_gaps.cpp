@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::contact {
@@ -17,7 +18,7 @@ std::vector<HeatGap> HeatGaps::ahead(std::span<const double> displacement, doubl
   const ContactKinematics& kinematics = geometry_.at(time, displacement);
   // Only open points may change: the gap at the displacements that are to come.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const auto i = static_cast<std::size_t>(p);
+    const auto i = as_size(p);
     HeatGap& gap = gaps[i];
     if (!gap.partnered || !(gap.penetration < 0)) continue;
     // Points with a partner are taken by the motion at that place; they can come back to touching

@@ -5,6 +5,7 @@
 
 #include "contact/contact_report.hpp"
 #include "contact/surfaces/rotation.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -22,14 +23,14 @@ class NodalAverage {
  public:
   explicit NodalAverage(std::size_t n_nodes) : weight_(n_nodes, 0), sum_(n_nodes) {}
   void add(Index node, double weight, const std::array<double, n_values>& values) {
-    const auto i = static_cast<std::size_t>(node);
+    const auto i = as_size(node);
     if (i >= weight_.size()) return;
     weight_[i] += weight;
     for (std::size_t k = 0; k < n_values; ++k) sum_[i][k] += weight * values[k];
   }
   /// Not a number where there is none.
   std::array<double, n_values> at(Index node) const {
-    const auto i = static_cast<std::size_t>(node);
+    const auto i = as_size(node);
     std::array<double, n_values> mean = sum_[i];
     const double w = weight_[i] > 0 ? weight_[i] : std::numeric_limits<double>::quiet_NaN();
     for (double& value : mean) value /= w;
@@ -57,14 +58,14 @@ NodalMeans nodal_means_of(const ContactView& pair, std::span<const double> tempe
   const std::vector<ContactPointState>& points = pair.end.state.points;
   const std::optional<FrictionLaw>& friction = pair.law.friction;
   const bool keeps = friction || pair.has_temperature();
-  const auto n = static_cast<std::size_t>(pair.geometry.mesh().n_owned_nodes);
+  const auto n = as_size(pair.geometry.mesh().n_owned_nodes);
   const std::vector<double> conductance = pair.heat != nullptr ? pair.heat->term().conductances(temperature)
                                                                : std::vector<double>(points.size(), 0.0);
   std::vector<InterfaceHeatFlux> heat(points.size());
   if (pair.heat != nullptr && !temperature.empty()) heat = pair.heat->term().surface_heat(temperature);
   NodalMeans means(n);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const ContactPointState& state = points[static_cast<std::size_t>(p)];
+    const ContactPointState& state = points[as_size(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     // What a particle keeps belongs to the slave's nodes, whether it has a partner now or not.
     if (keeps) {
@@ -78,18 +79,18 @@ NodalMeans nodal_means_of(const ContactView& pair, std::span<const double> tempe
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
     const Point traction = times(motion.push, state.traction);
-    const InterfaceHeatFlux& q = heat[static_cast<std::size_t>(p)];
+    const InterfaceHeatFlux& q = heat[as_size(p)];
     // What is met is given to the nodes of both sides. Heat is told apart by side; tractions act the same on
     // both.
     const auto meet = [&](Index node, double share, std::size_t side) {
-      if (const auto i = static_cast<std::size_t>(node); i < n) means.paired_area[i] += motion.weight * share;
-      means.met.add(node, motion.weight * share * share,
-                    {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)],
-                     q.total[side], q.by_friction[side], static_cast<double>(state.status), traction[0],
-                     traction[1], traction[2], state.sunk});
+      if (const auto i = as_size(node); i < n) means.paired_area[i] += motion.weight * share;
+      means.met.add(
+          node, motion.weight * share * share,
+          {-state.penetration, state.pressure, conductance[as_size(p)], q.total[side], q.by_friction[side],
+           static_cast<double>(state.status), traction[0], traction[1], traction[2], state.sunk});
     };
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) meet(particle.nodes[b], particle.share[b], 0);
-    for (auto b = static_cast<std::size_t>(motion.n_slave); b < motion.nodes.size(); ++b)
+    for (auto b = as_size(motion.n_slave); b < motion.nodes.size(); ++b)
       meet(motion.nodes[b], -motion.share[b], 1);
   }
   return means;
@@ -100,7 +101,7 @@ void add_wear_of_master(const ContactView& pair, ContactNodalFields& fields) {
   for (const MasterWear::Depth& worn : pair.history.depths(pair.end.state)) {
     const auto place = std::lower_bound(fields.nodes.begin(), fields.nodes.end(), worn.node);
     if (place == fields.nodes.end() || *place != worn.node) continue;
-    const auto k = static_cast<std::size_t>(place - fields.nodes.begin());
+    const auto k = as_size(place - fields.nodes.begin());
     fields.wear_depth[k] = worn.depth;
     fields.dissipation[k] = worn.dissipation;
   }
@@ -121,7 +122,7 @@ ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double>
     fields.overlap.push_back(m[9] - m[0]);
     fields.pressure.push_back(m[1]);
     fields.conductance.push_back(m[2]);
-    fields.paired_area.push_back(means.paired_area[static_cast<std::size_t>(node)]);
+    fields.paired_area.push_back(means.paired_area[as_size(node)]);
     fields.heat_flux.push_back(m[3]);
     fields.frictional_heat_flux.push_back(m[4]);
     const auto k = means.kept.at(node);

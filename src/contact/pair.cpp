@@ -6,15 +6,12 @@
 #include <algorithm>
 #include <array>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::contact {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The state of a point of a contact that is off.
 void open_up(ContactPointState& point) {
@@ -135,8 +132,8 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
   }
   // At each point the motion gives forces, these the next history, wear and heat.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const ContactPointState& from = step.from[at(p)];
-    ContactPointState& now = points[at(p)];
+    const ContactPointState& from = step.from[as_size(p)];
+    ContactPointState& now = points[as_size(p)];
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     // Forces depend on the state at the start of the step alone, so that a call at another
     // displacement begins from the same state.

@@ -4,15 +4,11 @@
 
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
-namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 PairHeat::PairHeat(std::unique_ptr<ContactHeat> heat, const ContactGeometry& geometry, ContactForces& forces,
                    ContactStep& step, ContactEnd& end)
@@ -42,7 +38,7 @@ std::vector<double> PairHeat::conducted_temperatures(std::span<const double> tem
 }
 
 std::vector<double> PairHeat::nodal(std::span<const double> temperature) const {
-  std::vector<double> heat(static_cast<std::size_t>(geometry_.mesh().n_owned_nodes), 0.0);
+  std::vector<double> heat(as_size(geometry_.mesh().n_owned_nodes), 0.0);
   if (heat_) heat_->term().add_residual(temperature, heat);
   return heat;
 }
@@ -54,7 +50,7 @@ void PairHeat::add_coupling(std::span<const double> temperature, linear::Coupled
   // Both are scratch of one point that the rates returned refer to until the next call.
   std::vector<Point> trial, share;
   const auto rates_of = [&](Index p) -> HeatRates {
-    const ContactPointState& from = step_.from[at(p)];
+    const ContactPointState& from = step_.from[as_size(p)];
     // How the pairing changes with displacements: shares, penetration, weight and, where it rubs, the trial
     // traction, whose size grows with slip and with the traction carried along.
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::rates);
@@ -63,7 +59,7 @@ void PairHeat::add_coupling(std::span<const double> temperature, linear::Coupled
     share.assign(n * n, Point{});
     kinematics.add_share_rates(p, share);
     trial.clear();
-    if (law.friction && end_.state.points[at(p)].status != PointStatus::open) {
+    if (law.friction && end_.state.points[as_size(p)].status != PointStatus::open) {
       // The trial traction is T_n carried along plus ε_T times the slip; its size changes along its
       // own direction.
       const double spring = law.tangential_penalty(from);

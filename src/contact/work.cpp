@@ -3,15 +3,12 @@
 
 #include "contact/contact_report.hpp"
 #include "contact/surfaces/rotation.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 enum class End { start, finish };
 
@@ -33,19 +30,20 @@ std::vector<double> increment_of(const ContactView& pair) {
 double force_times_increment(const ContactView& pair, End end, std::span<const double> increment) {
   const bool start = end == End::start;
   const ContactKinematics& kinematics = placed(pair, end);
-  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  const auto n = as_size(pair.geometry.components());
   double work = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     // Each point once, by the process that owns its slave face; open ones without pressure do no
     // work.
     if (!kinematics.particle(p).counted) continue;
-    const ContactPointState state = start ? pair.step.at_start(at(p)) : pair.end.state.points[at(p)];
+    const ContactPointState state =
+        start ? pair.step.at_start(as_size(p)) : pair.end.state.points[as_size(p)];
     if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
       const Point force = motion.force_at(b, state.balance_pressure, state.traction);
       for (std::size_t i = 0; i < n; ++i)
-        work += motion.weight * force[i] * increment[at(motion.nodes[b]) * n + i];
+        work += motion.weight * force[i] * increment[as_size(motion.nodes[b]) * n + i];
     }
   }
   return work;
@@ -56,11 +54,11 @@ double force_times_increment(const ContactView& pair, End end, std::span<const d
 double force_times_relative_way(const ContactView& pair, End end, std::span<const double> increment) {
   const bool start = end == End::start;
   const ContactKinematics& kinematics = placed(pair, end);
-  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  const auto n = as_size(pair.geometry.components());
   double work = 0;
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
-    const ContactPointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    const ContactPointState from = pair.step.at_start(as_size(p)), &to = pair.end.state.points[as_size(p)];
     // Points that keep their partner are summed by force_times_increment; only those that met or
     // left it within the step are left here.
     if (!particle.counted || from.anchored == to.anchored) continue;
@@ -72,7 +70,7 @@ double force_times_relative_way(const ContactView& pair, End end, std::span<cons
     Point way = scale(-1, kinematics.master_way(p, pair.step.begun, pair.end.time));
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       for (std::size_t i = 0; i < n; ++i)
-        way[i] += particle.share[b] * increment[at(particle.nodes[b]) * n + i];
+        way[i] += particle.share[b] * increment[as_size(particle.nodes[b]) * n + i];
     work += motion.weight * dot(force, way);
   }
   return work;
@@ -99,7 +97,7 @@ double rigid_work(const ContactView& pair, double share) {
   if (share != 0) work_and_rigid_work += share * force_times_relative_way(pair, End::finish, increment);
   const ContactKinematics& kinematics = placed(pair, End::finish);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const ContactPointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    const ContactPointState from = pair.step.at_start(as_size(p)), &to = pair.end.state.points[as_size(p)];
     if (!to.counted || !from.anchored || !to.anchored) continue;
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;

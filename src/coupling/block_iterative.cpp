@@ -16,6 +16,7 @@
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "heat/iteration/worst_node.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
@@ -294,7 +295,7 @@ std::string BlockIterative::largest_change(const Iterate& it) const {
   const std::vector<double>&now = it.now.heat.temperature, &before = answered(it);
   heat::WorstNode worst;
   for (Index i = 0; i < phases_.heat->mesh().n_owned_nodes; ++i) {
-    const auto n = static_cast<std::size_t>(i);
+    const auto n = as_size(i);
     if (n < now.size() && n < before.size()) worst.look(n, std::abs(now[n] - before[n]));
   }
   return worst.text(phases_.heat->mesh(), now, {});
@@ -303,7 +304,7 @@ std::string BlockIterative::largest_change(const Iterate& it) const {
 // The mechanical pass that follows sees a relaxed temperature; the thermal one knows its own.
 void BlockIterative::relax(Iterate& it) {
   const std::vector<double>& from = answered(it);
-  const auto n_owned = static_cast<std::size_t>(phases_.heat->mesh().n_owned_nodes);
+  const auto n_owned = as_size(phases_.heat->mesh().n_owned_nodes);
   std::vector<double> change(from.size());
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = it.now.heat.temperature[i] - from[i];
   const bool second = options_.sweep == IterationOptions::Sweep::jacobi && it.number % 2 == 1;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -140,33 +141,31 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       centre_(mesh.bodies.size()),
       n_bodies_(mesh.bodies.size()),
       n_nodes_(mesh.x.size()) {
-  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto n_owned = as_size(mesh.n_owned_nodes);
   // The volume that belongs to each node of each body, as shares of the body; and its centre.
   std::vector<std::vector<double>> weight(n_bodies_, std::vector<double>(n_owned, 0.0));
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, kind);
-    const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto n_nodes = as_size(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e)
       for (std::size_t a = 0; a < n_nodes; ++a) {
         // Every element at an owned node is here, so its weight is whole without the other processes.
         const Index node = block.element(e)[a];
         if (node < mesh.n_owned_nodes)
-          weight[static_cast<std::size_t>(block.body)][static_cast<std::size_t>(node)] +=
-              nodal[static_cast<std::size_t>(e / k_lanes) * n_nodes + a][static_cast<int>(e % k_lanes)];
+          weight[as_size(block.body)][as_size(node)] +=
+              nodal[as_size(e / k_lanes) * n_nodes + a][static_cast<int>(e % k_lanes)];
       }
   }
   for (std::size_t b = 0; b < n_bodies_; ++b) {
     // The volume is summed over processes, each of which has its own nodes.
     const double volume = parallel::global_sum(std::accumulate(weight[b].begin(), weight[b].end(), 0.0));
     for (std::size_t i = 0; i < n_owned; ++i)
-      if (weight[b][i] > 0)
-        shares_.push_back({static_cast<Index>(i), static_cast<int>(b), weight[b][i] / volume});
+      if (weight[b][i] > 0) shares_.push_back({as_index(i), static_cast<int>(b), weight[b][i] / volume});
   }
   // A centre is a sum over the nodes of all processes, and needed on each of them.
   for (const Share& share : shares_)
     for (std::size_t k = 0; k < 3; ++k)
-      centre_[static_cast<std::size_t>(share.body)][k] +=
-          share.weight * mesh.x[static_cast<std::size_t>(share.node)][k];
+      centre_[as_size(share.body)][k] += share.weight * mesh.x[as_size(share.node)][k];
   processes::sum(std::span(centre_.data()->data(), 3 * n_bodies_));
 }
 
@@ -175,10 +174,10 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
   // Mean squares over each body by volume; the largest of all bodies is the norm.
   std::vector<double> square(n_bodies_, 0.0);
   for (const Share& share : shares_) {
-    if (!counts.empty() && counts[static_cast<std::size_t>(share.node)] == 0) continue;
+    if (!counts.empty() && counts[as_size(share.node)] == 0) continue;
     for (std::size_t k = 0; k < width; ++k) {
-      const double v = values[static_cast<std::size_t>(share.node) * width + k];
-      square[static_cast<std::size_t>(share.body)] += share.weight * v * v;
+      const double v = values[as_size(share.node) * width + k];
+      square[as_size(share.body)] += share.weight * v * v;
     }
   }
   for (double& s : square) s = parallel::global_sum(s);
@@ -198,10 +197,10 @@ double BodyNorm::largest(const std::vector<double>& squares) const {
 template <class Take>
 void BodyNorm::each_displaced(std::span<const double> displacement, std::span<const char> counts,
                               const Take& take) const {
-  const auto width = static_cast<std::size_t>(displacement_components(kind_));
+  const auto width = as_size(displacement_components(kind_));
   // Places count from the centre of the body, which keeps the moments well conditioned.
   for (const Share& share : shares_) {
-    const auto node = static_cast<std::size_t>(share.node), body = static_cast<std::size_t>(share.body);
+    const auto node = as_size(share.node), body = as_size(share.body);
     // Nodes that do not count have no part in the motion either.
     if (displacement.empty() || (!counts.empty() && counts[node] == 0)) continue;
     Point u{}, x = mesh_->x[node];
@@ -215,7 +214,7 @@ std::vector<BodyNorm::Moments> BodyNorm::moments(std::span<const double> displac
                                                  std::span<const char> counts) const {
   std::vector<Moments> moments(n_bodies_);
   each_displaced(displacement, counts, [&](const Share& share, const Point& x, const Point& u) {
-    moments[static_cast<std::size_t>(share.body)].add(share.weight, x, u);
+    moments[as_size(share.body)].add(share.weight, x, u);
   });
   // The moments go between processes as plain numbers, whose count has to be that of the structure.
   static_assert(sizeof(Moments) == Moments::k_size * sizeof(double));
@@ -236,7 +235,7 @@ double BodyNorm::farthest_distortion(std::span<const double> displacement,
   // The distance of each node from where the rigid motion of its body would have it.
   double farthest = 0;
   each_displaced(displacement, counts, [&](const Share& share, const Point& x, const Point& u) {
-    const Point moved = rigid[static_cast<std::size_t>(share.body)].at(x);
+    const Point moved = rigid[as_size(share.body)].at(x);
     const double distance = std::hypot(u[0] - moved[0], u[1] - moved[1], u[2] - moved[2]);
     // A distance that is not a number stays.
     if (!std::isnan(farthest) && !(distance <= farthest)) farthest = distance;
@@ -246,8 +245,7 @@ double BodyNorm::farthest_distortion(std::span<const double> displacement,
 
 double BodyNorm::mean(std::span<const double> values) const {
   std::vector<double> sum(n_bodies_, 0.0);
-  for (const Share& share : shares_)
-    sum[static_cast<std::size_t>(share.body)] += share.weight * values[static_cast<std::size_t>(share.node)];
+  for (const Share& share : shares_) sum[as_size(share.body)] += share.weight * values[as_size(share.node)];
   double largest = 0;
   for (const double s : sum) {
     // The magnitude is taken after the sum: in a mean, what is above and below cancels.

@@ -5,29 +5,24 @@
 #include <algorithm>
 
 #include "heat/thermal_phase.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
-namespace {
-
-std::size_t at_index(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                      const linear::ActiveSet& active)
     : mesh_(mesh), materials_(materials), material_(mesh.x.size(), nullptr) {
   // The material of each node is that of the first body there that can melt.
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const material::Material& material = materials[at_index(block.body)];
+    const material::Material& material = materials[as_size(block.body)];
     if (!active.body(block.body) || material.solidification() == nullptr) continue;
     melts_ = true;  // every process has every block
     blocks_.push_back(&block);
     for (const Index node : block.nodes)
-      if (material_[at_index(node)] == nullptr) material_[at_index(node)] = &material;
+      if (material_[as_size(node)] == nullptr) material_[as_size(node)] = &material;
   }
   // Nodes of bodies that do not melt are coherent from the start.
   of_solid_.assign(mesh.x.size(), 1.0);
@@ -44,19 +39,18 @@ std::vector<double> Coherency::of(std::span<const double> solid_fraction,
   constexpr double k_unknown = -1;
   std::vector<double> coherency(mesh_.x.size(), k_unknown);
   for (const mesh::ElementBlock* block : blocks_) {
-    const auto body = at_index(block->body);
+    const auto body = as_size(block->body);
     const double of_one = 1 / materials_[body].casting.coherency_fraction;
-    const auto width = static_cast<std::size_t>(fields.n_fields),
-               field = static_cast<std::size_t>(fields.of_body[body]);
-    const auto vertices = static_cast<std::size_t>(mesh::vertex_count(block->shape));
-    const std::size_t n = block->nodes.empty() ? 0 : block->nodes.size() / at_index(block->size());
+    const auto width = as_size(fields.n_fields), field = as_size(fields.of_body[body]);
+    const auto vertices = as_size(mesh::vertex_count(block->shape));
+    const std::size_t n = block->nodes.empty() ? 0 : block->nodes.size() / as_size(block->size());
     for (Index e = 0; e < block->size(); ++e) {
       const std::span<const Index> nodes(block->element(e), n);
       double sum = 0;
-      for (std::size_t a = 0; a < vertices; ++a) sum += solid_fraction[at_index(nodes[a]) * width + field];
+      for (std::size_t a = 0; a < vertices; ++a) sum += solid_fraction[as_size(nodes[a]) * width + field];
       const double of_element = of_one * (sum / static_cast<double>(vertices));
       for (const Index node : nodes) {
-        double& least = coherency[at_index(node)];
+        double& least = coherency[as_size(node)];
         least = least == k_unknown ? of_element : std::min(least, of_element);
       }
     }

@@ -19,6 +19,7 @@
 #include "material/material.hpp"
 #include "mechanics/state/body_fields.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 class ThermalPhase;
@@ -38,7 +39,7 @@ class Coherency {
   bool melts() const { return melts_; }
   /// Whether a node, local, is of such a body as far as the elements of this process tell: all of an owned
   /// node.
-  bool melts(Index node) const { return material_[static_cast<std::size_t>(node)] != nullptr; }
+  bool melts(Index node) const { return material_[as_size(node)] != nullptr; }
   /// 1/f_c of every node, [local node], ghosts up to date; one where nothing melts. Where bodies share a node
   /// the least.
   const std::vector<double>& of_solid() const { return of_solid_; }

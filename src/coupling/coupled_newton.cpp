@@ -11,6 +11,7 @@
 #include "mechanics/mechanical_failure.hpp"
 #include "mechanics/solver/nodal_pressure.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
@@ -44,11 +45,10 @@ bool heat_stalls(const std::vector<CoupledResidual>& residuals) {
 /// Sets ∂r_Θ/∂u and ∂r_Θ/∂p to zero.
 void drop_heat_of_motion(linear::CoupledMatrix& matrix) {
   constexpr linear::CoupledMatrix::Slot k_scrap = -1;  // the first one
-  const std::size_t n =
-      (matrix.displacement().columns().size() + 1) * static_cast<std::size_t>(matrix.fields());
-  std::fill_n(matrix.heat_by_displacement(k_scrap), n * static_cast<std::size_t>(matrix.components()), 0.0);
+  const std::size_t n = (matrix.displacement().columns().size() + 1) * as_size(matrix.fields());
+  std::fill_n(matrix.heat_by_displacement(k_scrap), n * as_size(matrix.components()), 0.0);
   if (matrix.pressures() > 0)
-    std::fill_n(matrix.heat_by_pressure(k_scrap), n * static_cast<std::size_t>(matrix.pressures()), 0.0);
+    std::fill_n(matrix.heat_by_pressure(k_scrap), n * as_size(matrix.pressures()), 0.0);
 }
 
 }  // namespace
@@ -79,18 +79,17 @@ CoupledNewton::CoupledNewton(const Phases& phases, linear::CoupledSolverKind sol
     kernel.bind_heat(thermal_->matrix());
     kernels_.push_back(&kernel);
   }
-  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto n_owned = as_size(mesh.n_owned_nodes);
   force_.resize(mechanics_.bodies().n_residuals());
   work_.owned_step.resize(force_.size());
-  work_.step_u.resize(mesh.x.size() *
-                      static_cast<std::size_t>(mechanics_.bodies().components + matrix_.pressures()));
+  work_.step_u.resize(mesh.x.size() * as_size(mechanics_.bodies().components + matrix_.pressures()));
   work_.step_t.resize(mesh.x.size());
   work_.further.resize(n_owned);
   work_.scratch.resize(std::max(force_.size(), n_owned));
 }
 
 std::size_t CoupledNewton::n_owned_displacements() const {
-  return work_.further.size() * static_cast<std::size_t>(mechanics_.bodies().components);
+  return work_.further.size() * as_size(mechanics_.bodies().components);
 }
 
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
@@ -219,7 +218,7 @@ linear::FieldWeights CoupledNewton::weights() {
   const std::span<const double> heat = thermal_->right_hand_side();
   double squares[2] = {0, 0};
   for (std::size_t i = 0; i < heat.size(); ++i) {
-    work_.step_t[i] = heat[i] / *matrix_.temperature().diagonal_block(static_cast<Index>(i));
+    work_.step_t[i] = heat[i] / *matrix_.temperature().diagonal_block(as_index(i));
     squares[0] += heat[i] * heat[i];
   }
   ghosts_.update(work_.step_t, 1);

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "linear/automatic_solver.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
 
@@ -35,11 +36,11 @@ CoupledSaddleSolver::CoupledSaddleSolver(const mesh::Mesh& mesh, linear::Coupled
 }
 
 std::size_t CoupledSaddleSolver::n_displacements() const {
-  return static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(matrix_.components());
+  return as_size(mesh_.n_owned_nodes) * as_size(matrix_.components());
 }
 
 std::size_t CoupledSaddleSolver::n_pressures() const {
-  return static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(matrix_.pressures());
+  return as_size(mesh_.n_owned_nodes) * as_size(matrix_.pressures());
 }
 
 void CoupledSaddleSolver::reset() {
@@ -53,11 +54,11 @@ void CoupledSaddleSolver::find_unknowns() {
   work_.solution.resize(unknowns_->size());
   copy_.reset();
   const auto n_local = mesh_.x.size();
-  work_.whole.resize(n_displacements() + n_pressures() + static_cast<std::size_t>(mesh_.n_owned_nodes));
+  work_.whole.resize(n_displacements() + n_pressures() + as_size(mesh_.n_owned_nodes));
   work_.product.resize(work_.whole.size());
   work_.part.resize(work_.whole.size());
-  work_.local_u.resize(n_local * static_cast<std::size_t>(matrix_.components()));
-  work_.local_p.resize(n_local * static_cast<std::size_t>(matrix_.pressures()));
+  work_.local_u.resize(n_local * as_size(matrix_.components()));
+  work_.local_p.resize(n_local * as_size(matrix_.pressures()));
   work_.local_t.resize(n_local);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
@@ -13,7 +14,7 @@ double heat_content(const heat::ThermalPhase& phase, const heat::ThermalState& s
   double content = 0;
   const heat::NodalEnthalpy& storage = phase.storage();
   for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
-    const double temperature = state.temperature[static_cast<std::size_t>(i)];
+    const double temperature = state.temperature[as_size(i)];
     content += storage.capacity(i, temperature) * temperature;
   }
   return parallel::global_sum(content);

@@ -11,6 +11,7 @@
 
 #include "heat/iteration/worst_node.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
@@ -27,7 +28,7 @@ constexpr double k_most = 0.25;         ///< of the highest absolute temperature
 heat::TemperatureRange range_of(const heat::ThermalPhase& phase, const State& state) {
   heat::TemperatureRange range;
   for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
-    const double t = state.heat.temperature[static_cast<std::size_t>(i)];
+    const double t = state.heat.temperature[as_size(i)];
     range.lowest = std::min(range.lowest, t);
     range.highest = std::max(range.highest, t);
   }
@@ -58,7 +59,7 @@ std::vector<double> by_deformation(const Phases& phases, const State& trial, dou
   phases.structural->add_residual(trial.heat.temperature, heat);
   const heat::NodalEnthalpy& storage = phases.heat->storage();
   for (Index i = 0; i < phases.heat->mesh().n_owned_nodes; ++i) {
-    const auto n = static_cast<std::size_t>(i);
+    const auto n = as_size(i);
     const double capacity = storage.capacity(i, trial.heat.temperature[n]);
     const double change = capacity > 0 ? k_of_deformation * std::abs(heat[n]) * dt / capacity : 0.0;
     heat[n] = std::min(change, k_most * highest);
@@ -86,7 +87,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
   const auto look = [&](const std::vector<double>* deformation) {
     heat::WorstNode worst;
     for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
-      const auto n = static_cast<std::size_t>(i);
+      const auto n = as_size(i);
       const double beyond = std::max(range.lowest - now[n], now[n] - range.highest);
       worst.look(n, beyond - allowed - (deformation != nullptr ? (*deformation)[n] : 0.0));
     }

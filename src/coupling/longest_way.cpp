@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
@@ -28,7 +29,7 @@ double diagonal(const mesh::Mesh& mesh) {
 /// The longest way of a node [m]. Collective.
 /// @param step  [local node][component]
 double longest(std::span<const double> step, int components) {
-  const auto n = static_cast<std::size_t>(components);
+  const auto n = as_size(components);
   double squares = 0;
   for (std::size_t i = 0; i + n <= step.size(); i += n) {
     double of_node = 0;

@@ -6,6 +6,7 @@
 
 #include "coupling/largest_difference.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::coupling {
 
@@ -35,7 +36,7 @@ heat::ThermalState between(const heat::ThermalPhase& phase, const heat::ThermalS
   std::ranges::transform(a.enthalpy, b.enthalpy, state.enthalpy.begin(), part);
   const heat::NodalEnthalpy& storage = phase.storage();
   for (Index i = 0; i < storage.n_nodes(); ++i) {
-    const auto node = static_cast<std::size_t>(i);
+    const auto node = as_size(i);
     if (storage.capacity(i, b.temperature[node]) > 0)
       state.temperature[node] = storage.temperature(i, state.enthalpy[node]);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
@@ -17,8 +18,8 @@ void range_of_owned(const std::vector<double>& temperature, Index n_owned, const
   double low = k_unbounded, high = -k_unbounded;
   for (Index i = 0; i < n_owned; ++i) {
     if (active != nullptr && !active->node(i)) continue;
-    low = std::min(low, temperature[static_cast<std::size_t>(i)]);
-    high = std::max(high, temperature[static_cast<std::size_t>(i)]);
+    low = std::min(low, temperature[as_size(i)]);
+    high = std::max(high, temperature[as_size(i)]);
   }
   effort.min_temperature = parallel::global_min(low);
   effort.max_temperature = parallel::global_max(high);

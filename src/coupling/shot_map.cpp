@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
@@ -20,7 +21,7 @@ constexpr double k_farthest = 0.5;  ///< of the range of temperatures, by which 
 double dot(const std::vector<double>& weight, const std::vector<double>& a, const std::vector<double>& b,
            Index n_owned) {
   double sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n_owned); ++i) sum += weight[i] * a[i] * b[i];
+  for (std::size_t i = 0; i < as_size(n_owned); ++i) sum += weight[i] * a[i] * b[i];
   return parallel::global_sum(sum);
 }
 
@@ -30,8 +31,7 @@ ShotMap::ShotMap(const heat::ThermalPhase& heat, const std::vector<char>& stays,
     : heat_(heat), options_(options), ghosts_(heat.mesh()), volume_(heat.mesh().x.size(), 0.0) {
   for (Index i = 0; i < heat.mesh().n_owned_nodes; ++i)
     for (std::size_t b = 0; b < stays.size(); ++b)
-      if (stays[b] != 0)
-        volume_[static_cast<std::size_t>(i)] += heat.storage().volume(i, static_cast<int>(b));
+      if (stays[b] != 0) volume_[as_size(i)] += heat.storage().volume(i, static_cast<int>(b));
   ghosts_.update(volume_, 1);
 }
 
@@ -39,7 +39,7 @@ DieTemperature ShotMap::die_temperature(const State& state) const {
   DieTemperature die{0, HUGE_VAL, -HUGE_VAL};
   double sum = 0, volume = 0;
   // Only nodes that stay from shot to shot, by their volume.
-  for (std::size_t i = 0; i < static_cast<std::size_t>(heat_.mesh().n_owned_nodes); ++i) {
+  for (std::size_t i = 0; i < as_size(heat_.mesh().n_owned_nodes); ++i) {
     if (!stays(i)) continue;
     const double t = state.heat.temperature[i];
     sum += volume_[i] * t;
@@ -84,7 +84,7 @@ ShotRecord ShotMap::end(const State& state, ShotHistory& history) const {
     iterate.heat = state.heat.enthalpy.empty() ? state.heat.temperature : state.heat.enthalpy;
     iterate.displacement = state.mechanics.displacement;
     history.iterates.push_back(std::move(iterate));
-    const auto most = static_cast<std::size_t>(options_.depth) + 1;
+    const auto most = as_size(options_.depth) + 1;
     if (history.iterates.size() > most) history.iterates.erase(history.iterates.begin());
   }
   return {state.shot, state.poured, state.time,       history.at_pour, die_temperature(state),
@@ -137,7 +137,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
   const std::vector<double> alpha = coefficients(history);
   const heat::NodalEnthalpy& storage = heat_.storage();
   const bool by_heat = !state.heat.enthalpy.empty();
-  const auto n_owned = static_cast<std::size_t>(heat_.mesh().n_owned_nodes);
+  const auto n_owned = as_size(heat_.mesh().n_owned_nodes);
   // The combination is taken in enthalpy, where there is one, so that latent heat counts.
   const auto combined = [&](const std::vector<double> ShotIterate::*field, std::size_t i) {
     double sum = 0;
@@ -147,7 +147,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
   const auto temperature_at = [&](std::size_t i, double share) {
     const double now = by_heat ? state.heat.enthalpy[i] : state.heat.temperature[i];
     const double moved = now + share * (combined(&ShotIterate::heat, i) - now);
-    return by_heat ? storage.temperature(static_cast<Index>(i), moved) : moved;
+    return by_heat ? storage.temperature(as_index(i), moved) : moved;
   };
   // The move is as long as no node goes farther than allowed or above the highest temperature of the shot.
   double share = 1;
@@ -163,7 +163,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
   double put_in = 0;
   for (std::size_t i = 0; i < n_owned; ++i) {
     if (!stays(i)) continue;
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     const double t = temperature_at(i, share);
     const double before = by_heat ? state.heat.enthalpy[i] : storage.upper(node, state.heat.temperature[i]);
     if (by_heat) state.heat.enthalpy[i] += share * (combined(&ShotIterate::heat, i) - before);

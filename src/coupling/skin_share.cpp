@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/surfaces/surface.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
@@ -14,8 +15,7 @@ SkinShare::SkinShare(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const 
   // A process may have a node of a replicated surface without its elements, which tell whether it melts: the
   // owner of the node says so.
   std::vector<double> melts(mesh.x.size());
-  for (std::size_t i = 0; i < melts.size(); ++i)
-    melts[i] = coherency.melts(static_cast<Index>(i)) ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < melts.size(); ++i) melts[i] = coherency.melts(as_index(i)) ? 1.0 : 0.0;
   parallel::GhostExchange(mesh).update(melts, 1);
   for (const std::string& name : surfaces) {
     // Each node of a face has an equal part of its area, in axisymmetry of what it sweeps. Faces come in the
@@ -28,7 +28,7 @@ SkinShare::SkinShare(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const 
       const std::span<const Index> nodes = surface.nodes(f);
       const double part = face.measure() / static_cast<double>(nodes.size());
       for (std::size_t a = 0; a < nodes.size(); ++a) {
-        if (melts[static_cast<std::size_t>(nodes[a])] == 0) continue;
+        if (melts[as_size(nodes[a])] == 0) continue;
         parts.push_back(
             {nodes[a], kind == AnalysisKind::axisymmetric ? part * std::abs(face.x[a][0]) : part});
         area += parts.back().share;
@@ -45,7 +45,7 @@ double SkinShare::change(std::span<const double> before, std::span<const double>
   if (before.empty() || after.empty()) return largest;
   // The share counts up to full coherency; more solid changes nothing at a surface.
   const auto coherent = [](std::span<const double> of, Index node) {
-    return std::min(of[static_cast<std::size_t>(node)], 1.0);
+    return std::min(of[as_size(node)], 1.0);
   };
   // For each surface the share that becomes coherent; the largest counts.
   for (const std::vector<Part>& surface : surfaces_) {

@@ -13,6 +13,7 @@
 #include "coupling/passes.hpp"
 #include "coupling/relaxation.hpp"
 #include "heat/iteration/worst_node.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
@@ -80,7 +81,7 @@ void deform(const Phases& phases, const State& initial, std::span<const double> 
   // The node that changed most, for the message.
   heat::WorstNode worst;
   for (Index i = 0; i < phases.heat->mesh().n_owned_nodes; ++i) {
-    const auto n = static_cast<std::size_t>(i);
+    const auto n = as_size(i);
     worst.look(n, std::abs(found[n] - seen[n]));
   }
   throw StepRejected(
@@ -119,7 +120,7 @@ StepEffort solve_steady(const Phases& phases, const State& initial, State& stead
   // mechanics sees is relaxed by Aitken's factor, because a gap that opens cools what made it open.
   Relaxation relaxation({RelaxationOptions::Kind::aitken, 1.0});
   relaxation.begin();
-  const auto n_owned = static_cast<std::size_t>(phases.mechanics->mesh().n_owned_nodes);
+  const auto n_owned = as_size(phases.mechanics->mesh().n_owned_nodes);
   while (phases.heat != nullptr && !phases.contacts.empty()) {
     conduct(phases, initial, steady, effort);
     const std::vector<double>& found = steady.heat.temperature;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "criteria/gather.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -18,21 +19,21 @@ class Joined {
  public:
   explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
   std::size_t root(std::size_t i) {
-    auto k = static_cast<Index>(i);
+    auto k = as_index(i);
     while (parent(k) != k) {
       parent(k) = parent(parent(k));
       k = parent(k);
     }
-    return static_cast<std::size_t>(k);
+    return as_size(k);
   }
   void join(std::size_t a, std::size_t b) {
     a = root(a);
     b = root(b);
-    if (a != b) parent_[std::max(a, b)] = static_cast<Index>(std::min(a, b));
+    if (a != b) parent_[std::max(a, b)] = as_index(std::min(a, b));
   }
 
  private:
-  Index& parent(Index i) { return parent_[static_cast<std::size_t>(i)]; }
+  Index& parent(Index i) { return parent_[as_size(i)]; }
   std::vector<Index> parent_;
 };
 
@@ -43,7 +44,7 @@ std::map<double, double> joined_labels(const std::vector<double>& pairs) {
   std::sort(labels.begin(), labels.end());
   labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
   const auto place = [&](double label) {
-    return static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
+    return as_size(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
   };
   Joined joined(labels.size());
   for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) joined.join(place(pairs[k]), place(pairs[k + 1]));
@@ -65,7 +66,7 @@ void Connectivity::join_over_processes(std::span<const char> inside, std::vector
   ghosts_.update(of_owner, 1);
   // Such pairs of labels are few: only parts that lie on more than one process have them.
   std::vector<std::pair<double, double>> pairs;
-  for (std::size_t i = static_cast<std::size_t>(mesh_.n_owned_nodes); i < inside.size(); ++i)
+  for (std::size_t i = as_size(mesh_.n_owned_nodes); i < inside.size(); ++i)
     if (inside[i] != 0 && of_owner[i] != label[i]) pairs.emplace_back(label[i], of_owner[i]);
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -86,20 +87,20 @@ ConnectedParts Connectivity::parts(std::span<const char> inside) const {
   Joined joined(n);
   std::vector<char> whole(n, 0);  // a node of each whole element
   for (const mesh::ElementBlock& block : mesh_.blocks) {
-    if (chosen_[static_cast<std::size_t>(block.body)] == 0) continue;
-    const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+    if (chosen_[as_size(block.body)] == 0) continue;
+    const auto n_nodes = as_size(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e) {
       const std::span<const Index> nodes{block.element(e), n_nodes};
-      const auto is_inside = [&](Index i) { return inside[static_cast<std::size_t>(i)] != 0; };
+      const auto is_inside = [&](Index i) { return inside[as_size(i)] != 0; };
       const auto first = std::find_if(nodes.begin(), nodes.end(), is_inside);
       if (first == nodes.end()) continue;
       std::size_t found = 1;
       for (auto node = first + 1; node != nodes.end(); ++node)
         if (is_inside(*node)) {
-          joined.join(static_cast<std::size_t>(*first), static_cast<std::size_t>(*node));
+          joined.join(as_size(*first), as_size(*node));
           ++found;
         }
-      if (found == n_nodes) whole[static_cast<std::size_t>(*first)] = 1;
+      if (found == n_nodes) whole[as_size(*first)] = 1;
     }
   }
 

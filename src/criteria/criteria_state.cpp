@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::criteria {
 
 CriterionColumn make_column(const mesh::Mesh& mesh, std::string name, mesh::FieldPlace place, int components,
@@ -11,9 +13,8 @@ CriterionColumn make_column(const mesh::Mesh& mesh, std::string name, mesh::Fiel
   if (place == mesh::FieldPlace::node)
     n = mesh.x.size();
   else
-    for (const mesh::ElementBlock& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
-  return {std::move(name), place, components,
-          std::vector<double>(n * static_cast<std::size_t>(components), value)};
+    for (const mesh::ElementBlock& block : mesh.blocks) n += as_size(block.size());
+  return {std::move(name), place, components, std::vector<double>(n * as_size(components), value)};
 }
 
 }  // namespace solidus::criteria

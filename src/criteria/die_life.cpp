@@ -6,6 +6,7 @@
 
 #include "criteria/quantities.hpp"
 #include "criteria/strain_lanes.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -42,11 +43,11 @@ DieLife::DieLife(const CriterionContext& context)
   // A node that two such bodies share belongs to the first of them; owners hold all elements of a node.
   std::vector<double> owner(mesh_.x.size(), -1.0);
   for (const mesh::ElementBlock& block : mesh_.blocks) {
-    const std::optional<FatigueLaw>& law = laws_[static_cast<std::size_t>(block.body)];
+    const std::optional<FatigueLaw>& law = laws_[as_size(block.body)];
     if (!law) continue;
     if (law->deforms) blocks_.push_back({ElementStrain(mesh_, block, context.kind), &block});
     for (const Index node : block.nodes) {
-      double& of_node = owner[static_cast<std::size_t>(node)];
+      double& of_node = owner[as_size(node)];
       if (of_node < 0 || block.body < of_node) of_node = block.body;
     }
   }
@@ -60,7 +61,7 @@ std::vector<double> DieLife::strains(const CriterionInput& moment) const {
       volume(blocks_.empty() ? 0 : mesh_.x.size(), 0.0);
   if (blocks_.empty() || moment.mechanics.displacement.empty()) return sum;
   for (const Deforming& one : blocks_) {
-    const auto n_nodes = static_cast<std::size_t>(mesh::node_count(one.block->shape));
+    const auto n_nodes = as_size(mesh::node_count(one.block->shape));
     for (Index batch = 0; batch < one.strain.n_batches(); ++batch) {
       const Sym<Lane> strain = one.strain.strain(moment.mechanics.displacement, batch);
       const int count = std::min<int>(k_lanes, one.strain.n_elements() - batch * k_lanes);
@@ -68,7 +69,7 @@ std::vector<double> DieLife::strains(const CriterionInput& moment) const {
         const double v = one.strain.volume(batch)[lane];
         const Index* nodes = one.block->element(batch * k_lanes + lane);
         for (std::size_t a = 0; a < n_nodes; ++a) {
-          const auto node = static_cast<std::size_t>(nodes[a]);
+          const auto node = as_size(nodes[a]);
           volume[node] += v;
           for (std::size_t i = 0; i < k_tensor; ++i) sum[node * k_tensor + i] += v * strain.c[i][lane];
         }
@@ -129,7 +130,7 @@ void DieLife::step(const CriterionInput& /*old*/, const CriterionInput& next, Cr
 
 double DieLife::present_range(const CriterionRecord& record, std::size_t node) const {
   if (body_[node] < 0) return k_nothing;
-  const auto body = static_cast<std::size_t>(body_[node]);
+  const auto body = as_size(body_[node]);
   const double hot = record.columns[k_hottest].values[node], cold = record.columns[k_coldest].values[node];
   if (laws_[body]->deforms) {
     const double nu = poisson_[body].value(hot);
@@ -154,7 +155,7 @@ void DieLife::fill(const CriterionInput& /*now*/, const CriterionRecord& record,
   for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
     const double of_node = range(record, node);
     values[0][node] = of_node;
-    values[1][node] = of_node < 0 ? k_nothing : laws_[static_cast<std::size_t>(body_[node])]->life(of_node);
+    values[1][node] = of_node < 0 ? k_nothing : laws_[as_size(body_[node])]->life(of_node);
   }
 }
 
@@ -163,10 +164,10 @@ std::vector<CriterionResult> DieLife::findings(const CriterionRecord& record) co
   double largest = k_nothing, fewest = k_most_cycles;
   mesh::Point of_largest{}, of_fewest{};
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const auto node = static_cast<std::size_t>(i);
+    const auto node = as_size(i);
     const double of_node = range(record, node);
     if (of_node < 0) continue;
-    const double shots = laws_[static_cast<std::size_t>(body_[node])]->life(of_node);
+    const double shots = laws_[as_size(body_[node])]->life(of_node);
     if (of_node > largest) {
       largest = of_node;
       of_largest = mesh_.x[node];

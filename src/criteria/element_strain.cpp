@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::criteria {
 
 ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind) {
@@ -15,19 +17,18 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
   axisymmetric_ = kind == AnalysisKind::axisymmetric;
   n_elements_ = g.n_elements;
   n_batches_ = g.n_batches;
-  const auto n = static_cast<std::size_t>(n_nodes_), dim = static_cast<std::size_t>(dim_),
-             points = static_cast<std::size_t>(g.n_points);
-  const std::size_t entries = static_cast<std::size_t>(n_batches_) * n;
+  const auto n = as_size(n_nodes_), dim = as_size(dim_), points = as_size(g.n_points);
+  const std::size_t entries = as_size(n_batches_) * n;
   gradient_.assign(entries * dim, Lane(0.0));
   hoop_.assign(axisymmetric_ ? entries : 0, Lane(0.0));
   share_.assign(entries, Lane(0.0));
-  volume_.assign(static_cast<std::size_t>(n_batches_), Lane(0.0));
+  volume_.assign(as_size(n_batches_), Lane(0.0));
   // Gradients, hoop terms and shape functions as means over each element, by volume.
   for (Index batch = 0; batch < n_batches_; ++batch) {
     Lane volume(0.0);
     for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(batch, q);
-    volume_[static_cast<std::size_t>(batch)] = volume;
-    const std::size_t first = static_cast<std::size_t>(batch) * n;
+    volume_[as_size(batch)] = volume;
+    const std::size_t first = as_size(batch) * n;
     for (std::size_t q = 0; q < points; ++q) {
       // Padding has no volume.
       const Lane weight = g.weight_at(batch, static_cast<int>(q));
@@ -38,8 +39,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
         // Shape functions give means of nodal values; over the radius they give the hoop strain.
         const Lane value = w * Lane(g.values[q * n + a]);
         share_[first + a] += value;
-        if (axisymmetric_)
-          hoop_[first + a] += value * g.inverse_radius[static_cast<std::size_t>(batch) * points + q];
+        if (axisymmetric_) hoop_[first + a] += value * g.inverse_radius[as_size(batch) * points + q];
         for (std::size_t i = 0; i < dim; ++i) gradient_[(first + a) * dim + i] += w * gradients[a * dim + i];
       }
     }
@@ -51,8 +51,7 @@ namespace {
 
 Lane gather(std::span<const double> field, const Index* nodes, std::size_t width, std::size_t component) {
   Lane value;
-  for (int lane = 0; lane < k_lanes; ++lane)
-    value.set(lane, field[static_cast<std::size_t>(nodes[lane]) * width + component]);
+  for (int lane = 0; lane < k_lanes; ++lane) value.set(lane, field[as_size(nodes[lane]) * width + component]);
   return value;
 }
 
@@ -60,11 +59,11 @@ Lane gather(std::span<const double> field, const Index* nodes, std::size_t width
 
 Sym<Lane> ElementStrain::strain(std::span<const double> displacement, Index batch) const {
   constexpr int k_place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // in Sym
-  const auto dim = static_cast<std::size_t>(dim_);
-  const std::size_t first = static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_nodes_);
+  const auto dim = as_size(dim_);
+  const std::size_t first = as_size(batch) * as_size(n_nodes_);
   Sym<Lane> strain;
   // Symmetric gradient of the displacement with mean gradients; the hoop strain is u_r over the radius.
-  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes_); ++a) {
+  for (std::size_t a = 0; a < as_size(n_nodes_); ++a) {
     const Index* of_node = nodes(batch) + a * k_lanes;
     for (std::size_t i = 0; i < dim; ++i) {
       const Lane u = gather(displacement, of_node, dim, i);
@@ -77,18 +76,18 @@ Sym<Lane> ElementStrain::strain(std::span<const double> displacement, Index batc
 }
 
 Lane ElementStrain::mean(std::span<const double> nodal, Index batch) const {
-  const std::size_t first = static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_nodes_);
+  const std::size_t first = as_size(batch) * as_size(n_nodes_);
   Lane mean(0.0);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes_); ++a)
+  for (std::size_t a = 0; a < as_size(n_nodes_); ++a)
     mean += share_[first + a] * gather(nodal, nodes(batch) + a * k_lanes, 1, 0);
   return mean;
 }
 
 Lane ElementStrain::gradient(std::span<const double> nodal, Index batch) const {
-  const auto dim = static_cast<std::size_t>(dim_);
-  const std::size_t first = static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_nodes_);
+  const auto dim = as_size(dim_);
+  const std::size_t first = as_size(batch) * as_size(n_nodes_);
   std::array<Lane, 3> sum{Lane(0.0), Lane(0.0), Lane(0.0)};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes_); ++a) {
+  for (std::size_t a = 0; a < as_size(n_nodes_); ++a) {
     const Lane value = gather(nodal, nodes(batch) + a * k_lanes, 1, 0);
     for (std::size_t i = 0; i < dim; ++i) sum[i] += value * gradient_[(first + a) * dim + i];
   }

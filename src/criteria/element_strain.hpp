@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::criteria {
@@ -24,7 +25,7 @@ class ElementStrain {
   /// The magnitude of the mean gradient of a nodal field, [local node].
   Lane gradient(std::span<const double> nodal, Index batch) const;
   /// [m³], zero of padding; in two dimensions per depth, with an axis of the whole revolution.
-  const Lane& volume(Index batch) const { return volume_[static_cast<std::size_t>(batch)]; }
+  const Lane& volume(Index batch) const { return volume_[as_size(batch)]; }
   std::size_t bytes() const;
 
  private:

@@ -7,6 +7,7 @@
 
 #include "criteria/feeding_step.hpp"
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -61,7 +62,7 @@ Feeding::Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnt
       const double volume = followed_[b] != 0 ? storage.volume(i, static_cast<int>(b)) : 0.0;
       if (volume <= most) continue;
       most = volume;
-      body[static_cast<std::size_t>(i)] = static_cast<double>(b);
+      body[as_size(i)] = static_cast<double>(b);
     }
   }
   ghosts_.update(body, 1);
@@ -78,7 +79,7 @@ bool Feeding::has_shrinkage(const std::vector<material::Material>& materials,
 double Feeding::room(std::size_t node) const {
   double room = 0;
   for (std::size_t b = 0; b < followed_.size(); ++b)
-    if (followed_[b] != 0) room += storage_.volume(static_cast<Index>(node), static_cast<int>(b));
+    if (followed_[b] != 0) room += storage_.volume(as_index(node), static_cast<int>(b));
   return room;
 }
 
@@ -93,7 +94,7 @@ CriterionRecord Feeding::restart(const CriterionRecord& before, const CriterionI
   CriterionRecord record = before;
   const FeedingRows rows = rows_of(record);
   double added = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
     if (body_[i] < 0) continue;
     const double now = room(i), had = rows(i, k_room);
     if (!(now > had)) continue;

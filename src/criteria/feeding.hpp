@@ -32,6 +32,7 @@
 #include "criteria/feeding_nodes.hpp"
 #include "criteria/mush_flow.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::criteria {
@@ -91,9 +92,7 @@ class Feeding : public Criterion {
   bool has_gas() const {
     return std::ranges::any_of(gas_, [](const std::optional<GasLaw>& law) { return law.has_value(); });
   }
-  const MetalVolume& metal_of(std::size_t node) const {
-    return *metals_[static_cast<std::size_t>(body_[node])];
-  }
+  const MetalVolume& metal_of(std::size_t node) const { return *metals_[as_size(body_[node])]; }
   void measure(const CriterionInput& old, const CriterionInput& next, Step& step) const;
   void blow(std::size_t node, Step& step) const;
   double wall_yields(std::size_t node, const CriterionInput& old, const CriterionInput& next,

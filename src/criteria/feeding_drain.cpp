@@ -4,6 +4,7 @@
 
 #include "criteria/feeding_levels.hpp"
 #include "criteria/feeding_step.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -57,7 +58,7 @@ void Feeding::leave_unfed(Step& step, std::vector<double> missing) {
   std::vector<double> own(missing.size(), 0.0);
   const auto each = [&](const auto& visit) {
     for (std::size_t i = 0; i < step.demands.size(); ++i)
-      if (step.pool[i] >= 0 && step.demands[i].metal > 0) visit(i, static_cast<std::size_t>(step.pool[i]));
+      if (step.pool[i] >= 0 && step.demands[i].metal > 0) visit(i, as_size(step.pool[i]));
   };
   each([&](std::size_t i, std::size_t p) { own[p] += step.rows(i, k_room) * step.demands[i].metal; });
   processes::sum(own);
@@ -67,8 +68,7 @@ void Feeding::leave_unfed(Step& step, std::vector<double> missing) {
 }
 
 double Feeding::reached_at_first(const Step& step, std::size_t node) {
-  return step.pools.open[static_cast<std::size_t>(step.pool[node])] != 0 ? step.by_air[node]
-                                                                         : step.by_skin[node];
+  return step.pools.open[as_size(step.pool[node])] != 0 ? step.by_air[node] : step.by_skin[node];
 }
 
 // Air follows the melt that sinks: nodes next to those that are drained at a level may be drained too.
@@ -78,7 +78,7 @@ bool Feeding::spread(const Step& step, const std::vector<PoolLevel>& level,
   std::vector<double> drained(reached.size(), 0.0);
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     if (step.pool[i] < 0 || reached[i] == 0) continue;
-    const PoolLevel& l = level[static_cast<std::size_t>(step.pool[i])];
+    const PoolLevel& l = level[as_size(step.pool[i])];
     if (l.given > 0 && l.level < graph_.high(i)) drained[i] = 1;
   }
   ghosts_.update(drained, 1);
@@ -86,11 +86,11 @@ bool Feeding::spread(const Step& step, const std::vector<PoolLevel>& level,
   bool grown = false;
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     if (step.pool[i] < 0 || reached[i] != 0) continue;
-    const PoolLevel& l = level[static_cast<std::size_t>(step.pool[i])];
+    const PoolLevel& l = level[as_size(step.pool[i])];
     if (!(l.level < graph_.high(i))) continue;
     const bool beside =
-        std::ranges::any_of(graph_.around(static_cast<Index>(i)), [&](const FeedingGraph::Neighbour& n) {
-          const auto j = static_cast<std::size_t>(n.node);
+        std::ranges::any_of(graph_.around(as_index(i)), [&](const FeedingGraph::Neighbour& n) {
+          const auto j = as_size(n.node);
           return drained[j] != 0 && step.pool[j] == step.pool[i];
         });
     if (!beside) continue;
@@ -113,7 +113,7 @@ std::vector<double> Feeding::drain_from(Step& step, std::vector<double>& reached
     nodes.clear();
     for (std::size_t i = 0; i < step.demands.size(); ++i) {
       if (step.pool[i] < 0 || reached[i] == 0) continue;
-      const auto p = static_cast<std::size_t>(step.pool[i]);
+      const auto p = as_size(step.pool[i]);
       const double drained = step.rows(i, k_drained), moves = movable(step, i);
       if (!(asked[p] > 0) || !(moves > 0) || drained >= 1) continue;
       const double room = step.rows(i, k_room) * moves / (1 - drained);
@@ -158,8 +158,8 @@ void Feeding::refill(Step& step) const {
   };
   const auto each = [&](const auto& visit) {
     for (std::size_t i = 0; i < step.demands.size(); ++i)
-      if (step.pool[i] >= 0 && pools.metal[static_cast<std::size_t>(step.pool[i])] < 0)
-        visit(i, static_cast<std::size_t>(step.pool[i]), rows(i, k_room) / step.demands[i].fed.total());
+      if (step.pool[i] >= 0 && pools.metal[as_size(step.pool[i])] < 0)
+        visit(i, as_size(step.pool[i]), rows(i, k_room) / step.demands[i].fed.total());
   };
   // What all holes of a pool take, and its surface when it rises by one; summed over the processes.
   each([&](std::size_t i, std::size_t p, double metal) {

@@ -11,6 +11,7 @@
 #include "criteria/feeding_step.hpp"
 #include "criteria/gas_pores.hpp"
 #include "criteria/gather.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -79,7 +80,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
     // Each process sums the volume and the moment of its part of a hole; the representative place is that
     // with the largest rank.
     std::map<double, Part> own;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
+    for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
       if (inside[i] == 0) continue;
       Part part{.label = parts.label[i], .volume = rows(i, k_room) * lost(i)};
       for (std::size_t d = 0; d < 3; ++d) part.moment[d] = part.volume * mesh_.x[i][d];
@@ -123,7 +124,7 @@ std::vector<FeedingHole> Feeding::holes(const CriterionRecord& record) const {
 
 double Feeding::lowest_of(int body) const {
   double low = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i)
     if (body_[i] == body) low = std::min(low, up_.height(mesh_.x[i]));
   return parallel::global_min(low);
 }
@@ -141,7 +142,7 @@ std::vector<CriterionResult> Feeding::findings(const CriterionRecord& record) co
     CriterionRecord copy{record.name, record.columns, {}};
     const FeedingRows rows(copy.columns[0].values);
     std::vector<double> pores, rooms;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i) {
+    for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
       pores.push_back(rows(i, k_gas));
       rooms.push_back(rows(i, k_room));
     }
@@ -171,7 +172,7 @@ CriterionResult Feeding::densest_pores(const CriterionRecord& record) const {
   // Share and place travel together, so that the winner's place comes along.
   std::vector<double> own;
   // The densest own node, then the densest of all.
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i)
     if (rows(i, k_room) > 0 && (own.empty() || rows(i, k_pores) > own[0]))
       own = {rows(i, k_pores), mesh_.x[i][0], mesh_.x[i][1], mesh_.x[i][2]};
   const std::vector<double> all = gathered(std::span<const double>(own));

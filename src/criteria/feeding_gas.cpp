@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "criteria/feeding_step.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -21,7 +22,7 @@ double filled_share(const FeedingRows& rows, std::size_t node) {
 
 // In a pool the melt gives way to it; in mush it grows as far as melt comes or goes (grow_gas, draw_gas).
 void Feeding::blow(std::size_t node, Step& step) const {
-  const std::optional<GasLaw>& law = gas_[static_cast<std::size_t>(body_[node])];
+  const std::optional<GasLaw>& law = gas_[as_size(body_[node])];
   if (!law) return;
   const FeedingRows& rows = step.rows;
   const GasLaw::Place place = gas_place(step.temperature, step.solid_after, rows, node);
@@ -44,7 +45,7 @@ double Feeding::wall_yields(std::size_t node, const CriterionInput& old, const C
 
 /// How gas in mush follows the pressure, g = slope (P − P₀) + what there is of it.
 Feeding::GasLine Feeding::gas_line(const Step& step, std::size_t node) const {
-  const std::optional<GasLaw>& law = gas_[static_cast<std::size_t>(body_[node])];
+  const std::optional<GasLaw>& law = gas_[as_size(body_[node])];
   const double has = filled_share(step.rows, node);
   if (!law || !(has > 0)) return {};
   const GasLaw::Place place = gas_place(step.temperature, step.solid_after, step.rows, node);
@@ -67,13 +68,13 @@ void Feeding::grow_gas(Step& step, std::size_t node, const GasLine& line, double
 /// Mush that no melt reaches draws its gas larger, down to the pressure at which other pores open, and swells
 /// where gas has more than that of the surroundings. Metal that expands closes pores.
 void Feeding::draw_gas(Step& step, std::size_t node) const {
-  const std::optional<GasLaw>& law = gas_[static_cast<std::size_t>(body_[node])];
+  const std::optional<GasLaw>& law = gas_[as_size(body_[node])];
   if (!law) return;
   const FeedingRows& rows = step.rows;
   FeedingDemand& demand = step.demands[node];
   const double volume = demand.fed.total(), has = filled_share(rows, node), there = rows(node, k_gas);
   const GasLaw::Place place = gas_place(step.temperature, step.solid_after, rows, node);
-  const double drop = laws_[static_cast<std::size_t>(body_[node])].critical_drop();
+  const double drop = laws_[as_size(body_[node])].critical_drop();
   const double least = has * law->pores(place, 0), most = std::max(least, has * law->pores(place, -drop));
   const double grown = std::clamp(there + demand.metal * volume, least, most) - there;
   rows(node, k_gas) += grown;
@@ -86,8 +87,8 @@ void Feeding::draw_gas(Step& step, std::size_t node) const {
 /// The drop of pressure at which pores open: the critical one, or that at which gas takes all that a node
 /// asks for.
 double Feeding::most_drop(const Step& step, std::size_t node) const {
-  const double critical = laws_[static_cast<std::size_t>(body_[node])].critical_drop();
-  const std::optional<GasLaw>& law = gas_[static_cast<std::size_t>(body_[node])];
+  const double critical = laws_[as_size(body_[node])].critical_drop();
+  const std::optional<GasLaw>& law = gas_[as_size(body_[node])];
   const FeedingDemand& demand = step.demands[node];
   const double asked = demand.metal * demand.fed.total(), has = filled_share(step.rows, node);
   if (!law || !(asked > 0) || !(has > 0)) return critical;
@@ -100,7 +101,7 @@ double Feeding::most_drop(const Step& step, std::size_t node) const {
 /// Opens pores in mush that melt does not reach, or lets its gas expand where that needs the smaller fall of
 /// pressure.
 void Feeding::open_in_mush(Step& step, std::size_t node, double metal, double drop) const {
-  const std::size_t body = static_cast<std::size_t>(body_[node]);
+  const std::size_t body = as_size(body_[node]);
   if (!gas_[body] || drop >= laws_[body].critical_drop()) {
     open_pores(step, node, metal);
     return;

@@ -10,6 +10,7 @@
 
 #include "mesh/block_geometry.hpp"
 #include "mesh/body_faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
@@ -25,13 +26,13 @@ mesh::Point middle_of(const mesh::Mesh& mesh, std::span<const Index> vertices) {
   mesh::Point middle{};
   for (const Index v : vertices)
     for (std::size_t i = 0; i < 3; ++i)
-      middle[i] += mesh.x[static_cast<std::size_t>(v)][i] / static_cast<double>(vertices.size());
+      middle[i] += mesh.x[as_size(v)][i] / static_cast<double>(vertices.size());
   return middle;
 }
 
 /// The area of a face times its outward normal, of its first vertices.
 mesh::Point area_vector(const mesh::Mesh& mesh, std::span<const Index> vertices) {
-  const auto x = [&](std::size_t k) { return mesh.x[static_cast<std::size_t>(vertices[k])]; };
+  const auto x = [&](std::size_t k) { return mesh.x[as_size(vertices[k])]; };
   if (vertices.size() == 2) return {x(1)[1] - x(0)[1], x(0)[0] - x(1)[0], 0};
   const std::size_t last = vertices.size() - 1;
   mesh::Point a{}, b{};
@@ -49,7 +50,7 @@ std::vector<char> nodes_of(const mesh::Mesh& mesh, const std::vector<std::string
     const auto nodes = mesh.node_sets.find(group);
     if (nodes == mesh.node_sets.end())
       throw InputError({}, std::string("feeding.") + key + ": the mesh has no group '" + group + "'");
-    for (const Index node : nodes->second) marked[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : nodes->second) marked[as_size(node)] = 1;
   }
   return marked;
 }
@@ -68,19 +69,18 @@ FeedingGraph::FeedingGraph(const mesh::Mesh& mesh, AnalysisKind kind, const Feed
 
 // Entries of all elements are listed by their first node, then those of the same pair are added up.
 void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& bodies) {
-  const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto owned = as_size(mesh.n_owned_nodes);
   std::vector<std::size_t> entries(owned + 1, 0);
   // Bodies that are not followed hold no melt that could flow.
   const auto each_block = [&](const auto& visit) {
     for (const mesh::ElementBlock& block : mesh.blocks)
-      if (bodies[static_cast<std::size_t>(block.body)] != 0) visit(block);
+      if (bodies[as_size(block.body)] != 0) visit(block);
   };
   // Count first, then fill: the entries of each own node over its elements.
   each_block([&](const mesh::ElementBlock& block) {
     const int n = mesh::node_count(block.shape);
     for (const Index node : block.nodes)
-      if (node < mesh.n_owned_nodes)
-        entries[static_cast<std::size_t>(node) + 1] += static_cast<std::size_t>(n - 1);
+      if (node < mesh.n_owned_nodes) entries[as_size(node) + 1] += as_size(n - 1);
   });
   std::partial_sum(entries.begin(), entries.end(), entries.begin());
   neighbours_.resize(entries.back());
@@ -90,7 +90,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
         mesh, block, kind,
         mesh::order(block.shape) == 1 ? mesh::nodal_rule(block.shape) : mesh::stiffness_rule(block.shape));
     const int n = g.n_nodes;
-    std::vector<Lane> factor(static_cast<std::size_t>(n * n));
+    std::vector<Lane> factor(as_size(n * n));
     // The entry of two nodes is that of the conduction matrix, -∫ ∇N_a·∇N_b dV, which is the flow between
     // them for a unit of pressure and permeability.
     for (Index batch = 0; batch < g.n_batches; ++batch) {
@@ -101,8 +101,7 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
         for (int a = 0; a < n; ++a)
           for (int b = 0; b < n; ++b)
             for (int d = 0; d < g.dim; ++d)
-              factor[static_cast<std::size_t>(a * n + b)] -=
-                  weight * gradients[a * g.dim + d] * gradients[b * g.dim + d];
+              factor[as_size(a * n + b)] -= weight * gradients[a * g.dim + d] * gradients[b * g.dim + d];
       }
       // Lanes beyond the last element of a block are padding.
       for (Index lane = 0; lane < k_lanes && batch * k_lanes + lane < block.size(); ++lane) {
@@ -111,9 +110,8 @@ void FeedingGraph::connect(const mesh::Mesh& mesh, AnalysisKind kind, const std:
           if (nodes[a] >= mesh.n_owned_nodes) continue;
           for (int b = 0; b < n; ++b)
             if (a != b)
-              neighbours_[next[static_cast<std::size_t>(nodes[a])]++] = {
-                  nodes[b],
-                  static_cast<float>(factor[static_cast<std::size_t>(a * n + b)][static_cast<int>(lane)])};
+              neighbours_[next[as_size(nodes[a])]++] = {
+                  nodes[b], static_cast<float>(factor[as_size(a * n + b)][static_cast<int>(lane)])};
         }
       }
     }
@@ -146,21 +144,21 @@ void FeedingGraph::measure(const mesh::Mesh& mesh, const FeedingOptions& options
   const Upward up = options.upward();
   for (std::size_t i = 0; i < mesh.x.size(); ++i) low_[i] = high_[i] = up.height(mesh.x[i]);
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (options.bodies[static_cast<std::size_t>(block.body)] == 0) continue;
-    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
-    const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(block.shape));
+    if (options.bodies[as_size(block.body)] == 0) continue;
+    const auto n = as_size(mesh::node_count(block.shape));
+    const auto n_vertices = as_size(mesh::vertex_count(block.shape));
     // The share of a node reaches half of the way to the lowest and highest vertex of its elements; of a
     // vertex of quadratic elements a quarter, as the node in the middle of the edge owns the rest.
     for (Index e = 0; e < block.size(); ++e) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       const std::span<const Index> nodes{block.element(e), n};
       for (const Index node : nodes.first(n_vertices)) {
-        const double height = up.height(mesh.x[static_cast<std::size_t>(node)]);
+        const double height = up.height(mesh.x[as_size(node)]);
         low = std::min(low, height);
         high = std::max(high, height);
       }
       for (std::size_t a = 0; a < n; ++a) {
-        const auto i = static_cast<std::size_t>(nodes[a]);
+        const auto i = as_size(nodes[a]);
         const double height = up.height(mesh.x[i]);
         const double part = n > n_vertices && a < n_vertices ? 0.25 : 0.5;
         low_[i] = std::min(low_[i], height - part * (height - low));
@@ -182,7 +180,7 @@ void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
   const Upward up = options.upward();
   const bool risers = std::ranges::find(options.risers, 1) != options.risers.end();
   const auto is_followed = [&](const mesh::BodyFace& face) {
-    return options.bodies[static_cast<std::size_t>(face.body)] != 0;
+    return options.bodies[as_size(face.body)] != 0;
   };
   mesh::each_body_face_at_owned(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
     if (!is_followed(face) || std::ranges::count_if(same, is_followed) > 1) return;
@@ -194,19 +192,17 @@ void FeedingGraph::mark(const mesh::Mesh& mesh, const FeedingOptions& options) {
     // there.
     const bool against_wall = same.size() > 1 || touched.contains(face.key);
     const bool upward = dot(area, up.direction(middle_of(mesh, face.vertices()))) > k_upward * size &&
-                        !against_wall &&
-                        (!risers || options.risers[static_cast<std::size_t>(face.body)] != 0);
+                        !against_wall && (!risers || options.risers[as_size(face.body)] != 0);
     // A group marks a face only if all of its nodes are in it.
     const auto all = [&](const std::vector<char>& marked) {
-      return std::ranges::all_of(face.vertices(),
-                                 [&](Index node) { return marked[static_cast<std::size_t>(node)] != 0; });
+      return std::ranges::all_of(face.vertices(), [&](Index node) { return marked[as_size(node)] != 0; });
     };
     const bool open = (options.vented.empty() ? upward : all(vented)) && !all(covered);
     const bool skin = open || against_wall || cooled.contains(face.key);
     // Marks of a face go to all of its nodes; a node may be on several faces.
     for (const Index node : face.all_nodes()) {
-      if (skin) skin_[static_cast<std::size_t>(node)] = 1;
-      if (open) vented_[static_cast<std::size_t>(node)] = 1;
+      if (skin) skin_[as_size(node)] = 1;
+      if (open) vented_[as_size(node)] = 1;
     }
   });
   // A face may lie on one process only: its nodes' owners and ghosts learn of it here.

@@ -17,6 +17,7 @@
 #include "criteria/gas_law.hpp"
 #include "criteria/upward.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::criteria {
@@ -48,7 +49,7 @@ class FeedingGraph {
     float factor;  ///< g_ij [m]
   };
   std::span<const Neighbour> around(Index owned) const {
-    const auto i = static_cast<std::size_t>(owned);
+    const auto i = as_size(owned);
     return {neighbours_.data() + start_[i], neighbours_.data() + start_[i + 1]};
   }
   double low(std::size_t node) const { return low_[node]; }    ///< [m], of an owned node

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "criteria/feeding_step.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -35,8 +36,7 @@ void Feeding::feed(Step& step) const {
   find_pools(step);
   for (std::size_t i = 0; i < step.demands.size(); ++i)
     if (step.pool[i] >= 0)
-      step.pools.metal[static_cast<std::size_t>(step.pool[i])] +=
-          step.rows(i, k_room) * step.demands[i].metal;
+      step.pools.metal[as_size(step.pool[i])] += step.rows(i, k_room) * step.demands[i].metal;
   processes::sum(step.pools.metal);
   feed_mush(step);
   refill(step);
@@ -69,15 +69,15 @@ void Feeding::find_pools(Step& step) const {
   };
   const auto reached = [&](std::size_t i, bool at_surface, FeedingNumber kind) {
     if (at_surface || step.rows(i, kind) > k_nothing) return true;
-    return std::ranges::any_of(graph_.around(static_cast<Index>(i)), [&](const FeedingGraph::Neighbour& n) {
-      return emptied_through(static_cast<std::size_t>(n.node), kind);
+    return std::ranges::any_of(graph_.around(as_index(i)), [&](const FeedingGraph::Neighbour& n) {
+      return emptied_through(as_size(n.node), kind);
     });
   };
   // A single node of a corner that stays hot is no skin that gives way.
   const auto gives_way = [&](std::size_t i) {
     return graph_.skin(i) &&
-           std::ranges::any_of(graph_.around(static_cast<Index>(i)), [&](const FeedingGraph::Neighbour& n) {
-             const auto j = static_cast<std::size_t>(n.node);
+           std::ranges::any_of(graph_.around(as_index(i)), [&](const FeedingGraph::Neighbour& n) {
+             const auto j = as_size(n.node);
              return step.inside[j] != 0 && graph_.skin(j);
            });
   };
@@ -118,8 +118,8 @@ void Feeding::find_pools(Step& step) const {
 bool Feeding::asks_in_mush(const Step& step) const {
   bool mush = false;
   for (std::size_t i = 0; i < step.demands.size(); ++i)
-    mush = mush || (step.soft[i] != 0 && step.pool[i] < 0 &&
-                    (step.demands[i].metal != 0 || gas_[static_cast<std::size_t>(body_[i])]));
+    mush = mush ||
+           (step.soft[i] != 0 && step.pool[i] < 0 && (step.demands[i].metal != 0 || gas_[as_size(body_[i])]));
   return parallel::any_process(mush);
 }
 
@@ -208,11 +208,11 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
     if (region[i] < 0) continue;
     const double room = step.rows(i, k_room);
     if (step.pool[i] >= 0) {
-      const auto p = static_cast<std::size_t>(step.pool[i]);
+      const auto p = as_size(step.pool[i]);
       has[p] += room * movable(step, i) / step.demands[i].fed.total();
       region_of[p] = region[i];
     } else {
-      asked[static_cast<std::size_t>(region[i])] += room * step.demands[i].metal;
+      asked[as_size(region[i])] += room * step.demands[i].metal;
     }
   }
   // Sums of all processes; the region of a pool is known to those that hold nodes of it.
@@ -233,7 +233,7 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
     if (asked[r] > left[r]) part[r] = left[r] / asked[r];
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     if (region[i] < 0 || step.pool[i] >= 0) continue;
-    const double given = part[static_cast<std::size_t>(region[i])];
+    const double given = part[as_size(region[i])];
     if (given < 1) open_pores(step, i, (1 - given) * step.demands[i].metal);
   }
   // Each pool gives in the ratio of the flows from it, up to what it has;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "criteria/feeding.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -30,7 +31,7 @@ struct Feeding::Step {
         dt(next.time - old.time),
         temperature(next.heat.temperature),
         solid_after(next.solid_fraction),
-        demands(static_cast<std::size_t>(mesh.n_owned_nodes)),
+        demands(as_size(mesh.n_owned_nodes)),
         solid(mesh.x.size(), 1.0),
         mobile(mesh.x.size(), 0.0),
         soft(mesh.x.size(), 0),

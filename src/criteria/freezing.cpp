@@ -7,6 +7,7 @@
 #include "criteria/freezing_history.hpp"
 #include "criteria/quantities.hpp"
 #include "material/elasticity.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -47,8 +48,8 @@ std::vector<double> held_mush(const mesh::Mesh& mesh, const heat::NodalEnthalpy&
   for (const mesh::ElementBlock& block : mesh.blocks)
     for (const Index node : block.nodes)
       for (std::size_t i = 0; i < 3; ++i) {
-        const double x = mesh.x[static_cast<std::size_t>(node)][i];
-        const auto body = static_cast<std::size_t>(block.body);
+        const double x = mesh.x[as_size(node)][i];
+        const auto body = as_size(block.body);
         low[body][i] = std::min(low[body][i], x), high[body][i] = std::max(high[body][i], x);
       }
   std::vector<double> held(n_bodies, 0.0);
@@ -140,7 +141,7 @@ CriterionRecord Freezing::initial(const CriterionInput& start) const {
     for (const Slot time : k_times) history[i * k_width + time] = k_never;
   // Nodes that start between liquidus and solidus freeze from the start on.
   for (const FreezingNode& who : nodes_) {
-    const auto i = static_cast<std::size_t>(who.node);
+    const auto i = as_size(who.node);
     if (start.solid_fraction[i] > 0 && start.solid_fraction[i] < 1)
       history[i * k_width + k_liquidus_at] = start.time;
   }
@@ -152,8 +153,8 @@ CriterionRecord Freezing::initial(const CriterionInput& start) const {
 void Freezing::follow(const FreezingNode& who, const Step& step, std::span<double> history,
                       std::vector<Passage>& passages) const {
   // Nodes that stay outside the freezing range in this step are done at once.
-  const auto i = static_cast<std::size_t>(who.node);
-  const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
+  const auto i = as_size(who.node);
+  const Levels& levels = levels_[as_size(who.body)];
   const double from = step.old.heat.temperature[i], to = step.next.heat.temperature[i];
   if (std::min(from, to) > levels.liquidus || std::max(from, to) < levels.solidus) return;
   // The history of the node is brought up to date in the order of events: melting again, the fractions that
@@ -204,10 +205,10 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
                                           std::span<const double> history, bool only_behind) const {
   // The passage of the front counts as the same time within a share of the step, since it is
   // interpolated.
-  const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
+  const Levels& levels = levels_[as_size(who.body)];
   const double level = levels.evaluation, liquidus = levels.liquidus;
   const double now = step.time(at), tolerance = k_same_time * step.dt();
-  const auto own = static_cast<std::size_t>(who.node);
+  const auto own = as_size(who.node);
   const bool at_front = std::abs(history[own * k_width + k_evaluated_at] - now) <= tolerance;
   PatchGradient result;
   mesh::Point all{}, behind{};
@@ -221,7 +222,7 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
     bool some_passed = false, melt = false;
     double coldest = level, since = HUGE_VAL;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const auto j = static_cast<std::size_t>(nodes[a]);
+      const auto j = as_size(nodes[a]);
       // On an isothermal change the temperature is not linear in the step: a node at the front has T_e.
       values[a] = j == own && at_front ? level : step.temperature(j, at);
       const double evaluated = history[j * k_width + k_evaluated_at];
@@ -261,8 +262,8 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
 }
 
 void Freezing::evaluate(const Passage& passage, const Step& step, std::span<double> history) const {
-  double* const h = history.data() + static_cast<std::size_t>(passage.who.node) * k_width;
-  const Levels& levels = levels_[static_cast<std::size_t>(passage.who.body)];
+  double* const h = history.data() + as_size(passage.who.node) * k_width;
+  const Levels& levels = levels_[as_size(passage.who.body)];
   const PatchGradient g = recover(passage.who, step, passage.at, history, false);
   // A front sharper than the patch of elements is seen from the side behind it alone.
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
@@ -286,7 +287,7 @@ void Freezing::evaluate(const Passage& passage, const Step& step, std::span<doub
 void Freezing::accumulate(const FreezingNode& who, const Step& step, std::span<double> history) const {
   const PatchGradient g = recover(who, step, 1.0, history, true);
   if (!g.has_behind || g.since == HUGE_VAL) return;
-  double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  double* const h = history.data() + as_size(who.node) * k_width;
   h[k_sum_gradient] += step.dt() * g.behind;
   h[k_sum_magnitude] += step.dt() * g.behind_magnitude;
   // Backward Euler lets the heat of a whole step flow off at its end, also of that in which the front comes.
@@ -303,17 +304,17 @@ void Freezing::complete(const FreezingNode& who, const Step& step, std::span<dou
     if (patches_.body(e) != who.body) continue;
     double last = 0;
     for (const Index node : patches_.nodes(e)) {
-      const double at = history[static_cast<std::size_t>(node) * k_width + k_evaluated_at];
+      const double at = history[as_size(node) * k_width + k_evaluated_at];
       last = at < 0 ? step.next.time + step.dt() : std::max(last, at);
     }
     passed_at = std::min(passed_at, last);
   }
   // Not in this step: it goes on waiting.
   if (passed_at > step.next.time) return;
-  const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
+  const Levels& levels = levels_[as_size(who.body)];
   const double at = std::clamp((passed_at - step.old.time) / step.dt(), 0.0, 1.0);
   const PatchGradient g = recover(who, step, at, history, true);
-  double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  double* const h = history.data() + as_size(who.node) * k_width;
   // The same distinction as in evaluate(), now with the gradient behind.
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
   h[k_mode] = sharp ? k_sharp : k_mushy;
@@ -329,7 +330,7 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
   std::vector<FreezingNode> waiting, freezing;
   // First the own nodes: who passes a level in this step, who waits for a neighbour, who freezes.
   for (const FreezingNode& who : nodes_) {
-    const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+    const double* const h = history.data() + as_size(who.node) * k_width;
     if (h[k_mode] == k_waiting) waiting.push_back(who);
     follow(who, step, history, passages);
     if (h[k_liquidus_at] >= 0 && h[k_evaluated_at] < 0) freezing.push_back(who);
@@ -346,8 +347,7 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
   for (const Passage& passage : passages) evaluate(passage, step, history);
   for (const FreezingNode& who : freezing) accumulate(who, step, history);
   for (const FreezingNode& who : waiting)
-    if (history[static_cast<std::size_t>(who.node) * k_width + k_mode] == k_waiting)
-      complete(who, step, history);
+    if (history[as_size(who.node) * k_width + k_mode] == k_waiting) complete(who, step, history);
   patches_.clear();
   ghosts_.update(history, k_width);
 }
@@ -355,22 +355,22 @@ void Freezing::step(const CriterionInput& old, const CriterionInput& next, Crite
 /// The speed of the front at every owned node, zero where it is not known: one over the mean of |∇t_e|, so
 /// that slopes of opposite sense do not cancel where fronts meet.
 std::vector<double> Freezing::front_speeds(std::span<const double> history) const {
-  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  const auto n = as_size(mesh_.n_owned_nodes);
   // Elements whose nodes have all been passed have a gradient of the passing time; its length is
   // one over speed.
   std::vector<double> slope(n, 0.0), volume(n, 0.0);
   std::vector<int> body(n, -1);
-  for (const FreezingNode& who : nodes_) body[static_cast<std::size_t>(who.node)] = who.body;
+  for (const FreezingNode& who : nodes_) body[as_size(who.node)] = who.body;
   patches_.for_elements([&](const Patches::Element& e) {
     std::array<double, k_most_nodes> times{};
     const std::span<const Index> nodes = patches_.nodes(e);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
-      times[a] = history[static_cast<std::size_t>(nodes[a]) * k_width + k_evaluated_at];
+      times[a] = history[as_size(nodes[a]) * k_width + k_evaluated_at];
       if (times[a] < 0) return;
     }
     const Patches::Gradient g = patches_.gradient(e, std::span(times).first(nodes.size()));
     for (const Index node : nodes) {
-      const auto i = static_cast<std::size_t>(node);
+      const auto i = as_size(node);
       if (node >= mesh_.n_owned_nodes || body[i] != patches_.body(e)) continue;
       slope[i] += g.volume * length(g.value);
       volume[i] += g.volume;
@@ -391,8 +391,8 @@ void Freezing::fill(const CriterionInput& /*now*/, const CriterionRecord& record
   for (std::size_t f = 0; f < k_fields; ++f) std::ranges::fill(values[f], nothing_known()[f]);
   const std::vector<double> speeds = front_speeds(record.columns[0].values);
   for (const FreezingNode& who : nodes_) {
-    const auto of_node = values_of(who, record.columns[0].values, speeds[static_cast<std::size_t>(who.node)]);
-    for (std::size_t f = 0; f < k_fields; ++f) values[f][static_cast<std::size_t>(who.node)] = of_node[f];
+    const auto of_node = values_of(who, record.columns[0].values, speeds[as_size(who.node)]);
+    for (std::size_t f = 0; f < k_fields; ++f) values[f][as_size(who.node)] = of_node[f];
   }
   for (std::size_t f = 0; f < k_fields; ++f) ghosts_.update(values[f], 1);
 }

@@ -3,6 +3,7 @@
 #include "criteria/freezing_history.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -17,8 +18,7 @@ std::vector<CriterionResult> Freezing::shares_beyond(const CriterionRecord& reco
     if (!field.threshold) continue;
     double all = 0, bad = 0;
     for (const FreezingNode& who : nodes_) {
-      const double value =
-          values_of(who, record.columns[0].values, speeds[static_cast<std::size_t>(who.node)])[f];
+      const double value = values_of(who, record.columns[0].values, speeds[as_size(who.node)])[f];
       if (value == field.no_value) continue;
       const double volume = storage_.volume(who.node, who.body);
       // The side of the threshold that is bad is that of the field's worst extreme.
@@ -50,7 +50,7 @@ std::vector<CriterionResult> Freezing::findings(const CriterionRecord& record) c
   // processes.
   const std::vector<double> speeds = front_speeds(record.columns[0].values);
   for (const FreezingNode& who : nodes_) {
-    const auto i = static_cast<std::size_t>(who.node);
+    const auto i = as_size(who.node);
     const auto of_node = values_of(who, record.columns[0].values, speeds[i]);
     for (std::size_t f = 0; f < k_fields; ++f)
       if (of_node[f] > 0 || (of_node[f] == 0 && nothing_known()[f] < 0))

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::criteria {
 
 double passing(double from, double to, double level) {
@@ -24,7 +26,7 @@ FreezingLevels FreezingLevels::of(const material::Material& material) {
 
 double FreezingLevels::begin(const heat::NodalEnthalpy& storage, Index node, const CriterionInput& old,
                              const CriterionInput& next) const {
-  const auto i = static_cast<std::size_t>(node);
+  const auto i = as_size(node);
   if (liquidus_jump && !next.heat.enthalpy.empty())
     return passing(old.heat.enthalpy[i], next.heat.enthalpy[i], storage.upper(node, liquidus));
   return passing(old.heat.temperature[i], next.heat.temperature[i], liquidus);
@@ -32,7 +34,7 @@ double FreezingLevels::begin(const heat::NodalEnthalpy& storage, Index node, con
 
 double FreezingLevels::end(const heat::NodalEnthalpy& storage, Index node, const CriterionInput& old,
                            const CriterionInput& next) const {
-  const auto i = static_cast<std::size_t>(node);
+  const auto i = as_size(node);
   if (solidus_jump && !next.heat.enthalpy.empty())
     return passing(old.heat.enthalpy[i], next.heat.enthalpy[i], storage.lower(node, solidus));
   return passing(old.heat.temperature[i], next.heat.temperature[i], solidus);

@@ -5,6 +5,7 @@
 #include "criteria/freezing.hpp"
 #include "criteria/freezing_history.hpp"
 #include "criteria/gather.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -24,12 +25,12 @@ CriterionRecord Freezing::restart(const CriterionRecord& before, const Criterion
     if (row[2] >= 0 && (best[2] < 0 || later)) std::copy(row + 1, row + k_entries, best + 1);
   };
   for (const FreezingNode& who : nodes_) {
-    const auto i = static_cast<std::size_t>(who.node);
+    const auto i = as_size(who.node);
     const double frozen = history[i * k_width + k_solidified_at];
     const mesh::Point& x = mesh_.x[i];
     const double number = frozen < 0 ? -1.0 : static_cast<double>(mesh_.input_node[i]);
     const double row[k_entries] = {start.solid_fraction[i] < 1 ? 1.0 : 0.0, frozen, number, x[0], x[1], x[2]};
-    take(own.data() + static_cast<std::size_t>(who.body) * k_entries, row);
+    take(own.data() + as_size(who.body) * k_entries, row);
   }
   // The best of all processes, which may each have several bodies.
   const std::vector<double> all = gathered(own);

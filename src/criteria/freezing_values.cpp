@@ -2,6 +2,7 @@
 #include "criteria/freezing.hpp"
 #include "criteria/freezing_history.hpp"
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -28,7 +29,7 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
                                                            std::span<const double> history,
                                                            double speed) const {
   // A node that has not solidified has no values at all.
-  const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  const double* const h = history.data() + as_size(who.node) * k_width;
   if (h[k_solidified_at] < 0) return nothing_known();
   // Gradient and rate are those of the moment of evaluation. Where the speed of the front is known, the rate
   // is gradient times speed, which is smoother than the rate at the node alone.
@@ -38,7 +39,7 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   const double magnitude = evaluated ? h[k_magnitude] : 0.0, own_rate = evaluated ? h[k_rate] : 0.0;
   const double rate = speed > 0 ? magnitude * speed : own_rate;
   // From these follow the arm spacing, Niyama's number, and the porosity that the feeding law expects of it.
-  const auto body = static_cast<std::size_t>(who.body);
+  const auto body = as_size(who.body);
   const double spacing = storage_.material(who.body).casting.secondary_arm_spacing(time).value_or(0);
   const double ny = niyama(gradient, rate);
   const std::optional<FeedingLaw>& feeding = feeding_[body];

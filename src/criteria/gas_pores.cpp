@@ -7,6 +7,7 @@
 
 #include "criteria/gather.hpp"
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -52,14 +53,13 @@ void GasPores::step(const CriterionInput& old, const CriterionInput& next, Crite
   std::vector<double>&pores = record.columns[k_gas_share].values, &times = record.columns[k_gas_time].values;
   constexpr double k_mean = 0.5;  // of a step in which metal begins to freeze
   for (const Node& who : nodes_) {
-    const auto i = static_cast<std::size_t>(who.node);
+    const auto i = as_size(who.node);
     // The time of freezing counts from the step in which freezing begins, of which half is taken.
     const double before = old.solid_fraction[i], after = next.solid_fraction[i];
     // Solid metal makes no more pores.
     if (before >= 1 && after >= 1) continue;
     times[i] = after > 0 ? times[i] + (before > 0 ? 1 : k_mean) * (next.time - old.time) : 0;
-    pores[i] =
-        laws_[static_cast<std::size_t>(who.body)]->pores({next.heat.temperature[i], after, times[i]}, 0);
+    pores[i] = laws_[as_size(who.body)]->pores({next.heat.temperature[i], after, times[i]}, 0);
   }
   // Fields show ghosts' values too.
   ghosts_.update(pores, 1);
@@ -76,8 +76,8 @@ void GasPores::fill(const CriterionInput& /*now*/, const CriterionRecord& record
 }
 
 std::vector<CriterionResult> GasPores::findings(const CriterionRecord& record) const {
-  std::vector<double> room(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
-  for (const Node& who : nodes_) room[static_cast<std::size_t>(who.node)] = who.room;
+  std::vector<double> room(as_size(mesh_.n_owned_nodes), 0.0);
+  for (const Node& who : nodes_) room[as_size(who.node)] = who.room;
   return gas_findings(mesh_, record.columns[k_gas_share].values, room);
 }
 

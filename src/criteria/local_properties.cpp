@@ -8,6 +8,7 @@
 
 #include "criteria/gather.hpp"
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -41,7 +42,7 @@ class Froze {
 
  private:
   double at(const quantities::Quantity& wanted, std::size_t node) const {
-    return columns_[static_cast<std::size_t>(std::ranges::find(shown_, &wanted) - shown_.begin())][node];
+    return columns_[as_size(std::ranges::find(shown_, &wanted) - shown_.begin())][node];
   }
   std::span<const quantities::Quantity* const> shown_;
   std::vector<std::vector<double>> columns_;
@@ -135,8 +136,8 @@ std::vector<std::vector<double>> LocalProperties::values(const CriterionInput& n
     std::vector<double>& column = all.emplace_back(mesh_.x.size(), fields_[f]->no_value.value_or(0));
     // Of several tables with the property, the first that reaches the place tells it.
     for (const Node& who : nodes_) {
-      const auto i = static_cast<std::size_t>(who.node);
-      for (const LocalLaw& law : laws_[static_cast<std::size_t>(who.body)]) {
+      const auto i = as_size(who.node);
+      for (const LocalLaw& law : laws_[as_size(who.body)]) {
         const std::optional<double> value = law.value(law.*k_lists[which_[f]], froze.of(law, i));
         if (!value) continue;
         column[i] = *value;
@@ -164,11 +165,10 @@ std::vector<CriterionResult> LocalProperties::findings(const CriterionRecord& re
     // Each body by itself: a riser is not what one sells.
     std::vector<Range> of_body(laws_.size());
     for (const Node& who : nodes_) {
-      const auto i = static_cast<std::size_t>(who.node);
+      const auto i = as_size(who.node);
       const double value = all[f][i];
       if (value == fields_[f]->no_value.value_or(0)) continue;
-      of_body[static_cast<std::size_t>(who.body)].see(value, mesh_.x[i], value, mesh_.x[i], who.room * value,
-                                                      who.room);
+      of_body[as_size(who.body)].see(value, mesh_.x[i], value, mesh_.x[i], who.room * value, who.room);
     }
     for (std::size_t b = 0; b < of_body.size(); ++b) {
       const Range range = of_body[b].over_processes();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "material/permeability.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -52,11 +53,11 @@ class Equations {
       if (input.place[i] != MushPlace::mush) continue;
       rows_.push_back(i);
       double diagonal = 0;
-      for (const FeedingGraph::Neighbour& n : graph.around(static_cast<Index>(i))) {
-        const auto j = static_cast<std::size_t>(n.node);
+      for (const FeedingGraph::Neighbour& n : graph.around(as_index(i))) {
+        const auto j = as_size(n.node);
         if (input.place[j] == MushPlace::none || !(n.factor > 0)) continue;
-        const double conductance = static_cast<double>(n.factor) *
-                                   laws[static_cast<std::size_t>(input.body[i])].mobility(end(i), end(j));
+        const double conductance =
+            static_cast<double>(n.factor) * laws[as_size(input.body[i])].mobility(end(i), end(j));
         edges_.push_back({j, conductance});
         diagonal += conductance;
       }
@@ -106,7 +107,7 @@ class Equations {
   MushLaw::End end(std::size_t node) const { return {input_.solid[node], input_.temperature[node]}; }
   double critical(std::size_t k) const {
     if (!input_.drop.empty()) return input_.drop[rows_[k]];
-    return laws_[static_cast<std::size_t>(input_.body[rows_[k]])].critical_drop();
+    return laws_[as_size(input_.body[rows_[k]])].critical_drop();
   }
   void hold(std::size_t k) {
     held_[k] = 1;
@@ -180,7 +181,7 @@ class Equations {
       if (held_[k] != 0) result.pores[i] = std::max(0.0, pores(k));
       for (std::size_t e = start_[k]; e < start_[k + 1]; ++e)
         if (const std::size_t j = edges_[e].node; input_.place[j] == MushPlace::pool)
-          result.from_pool[static_cast<std::size_t>(input_.pool[j])] -= edges_[e].conductance * pressure_[i];
+          result.from_pool[as_size(input_.pool[j])] -= edges_[e].conductance * pressure_[i];
     }
     processes::sum(result.from_pool);
     return result;

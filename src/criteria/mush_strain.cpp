@@ -7,6 +7,7 @@
 
 #include "criteria/quantities.hpp"
 #include "criteria/strain_lanes.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -75,7 +76,7 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
   // of the record are the element numbers of the mesh.
   std::size_t first = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    const material::Material& material = materials[as_size(block.body)];
     const material::PhaseChange* freezing = material.solidification();
     if (freezing != nullptr && freezing->fraction.liquidus() > freezing->fraction.solidus()) {
       const auto& curve = freezing->fraction.points();
@@ -94,7 +95,7 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
       std::ranges::sort(nodes);
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
-    first += static_cast<std::size_t>(block.size());
+    first += as_size(block.size());
   }
   // A field exists only if some material has the law that it comes from.
   const std::array<bool, k_fields> said = {std::ranges::any_of(materials, tears),
@@ -123,7 +124,7 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
   for (const OfBlock& block : blocks_) {
     const material::PhaseFraction& fraction = block.material->solidification()->fraction;
     for (const Index n : block.nodes) {
-      const auto i = static_cast<std::size_t>(n);
+      const auto i = as_size(n);
       before[i] = fraction.value(old.heat.temperature[i], old.plateau_at(i));
       after[i] = fraction.value(next.heat.temperature[i], next.plateau_at(i));
     }
@@ -131,7 +132,7 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
     const double coherent = casting.coherency_fraction, near = std::min(coherent, k_near_root * block.root);
     for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
       const Lane from = mean(block, before, batch), to = mean(block, after, batch);
-      const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
+      const std::size_t first = block.first + as_size(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
       bool freezes = false;
       // A batch that is frozen throughout the step is skipped, and is the usual case.
@@ -161,7 +162,7 @@ void MushStrain::step(const CriterionInput& old, const CriterionInput& next, Cri
                  cooled = block.strain.mean(old.heat.temperature, batch) -
                           block.strain.mean(next.heat.temperature, batch);
       for (int lane = 0; lane < count; ++lane) {
-        const std::size_t e = first + static_cast<std::size_t>(lane);
+        const std::size_t e = first + as_size(lane);
         const bool soft = from[lane] < coherent, far = from[lane] < near;
         const double share = near_root[lane];
         add(column, e, k_mush_time, share * dt, far);
@@ -213,7 +214,7 @@ void MushStrain::fill(const CriterionInput& /*now*/, const CriterionRecord& reco
   for (std::size_t k = 0; k < fields_.size(); ++k) std::ranges::fill(values[k], *fields_[k]->no_value);
   const std::span<const double> column = record.columns[0].values;
   for (const OfBlock& block : blocks_)
-    for (std::size_t e = block.first; e < block.first + static_cast<std::size_t>(block.block->size()); ++e) {
+    for (std::size_t e = block.first; e < block.first + as_size(block.block->size()); ++e) {
       const auto of_element = values_of(block, column.subspan(e * k_mush_numbers, k_mush_numbers));
       for (std::size_t k = 0; k < fields_.size(); ++k) values[k][e] = of_element[which_[k]];
     }
@@ -232,7 +233,7 @@ std::vector<CriterionResult> MushStrain::findings(const CriterionRecord& record)
     // Elements without a value do not count, neither for the volume nor for the largest.
     for (const OfBlock& block : blocks_)
       for (Index e = 0; e < block.block->n_counted; ++e) {
-        const std::size_t row = block.first + static_cast<std::size_t>(e);
+        const std::size_t row = block.first + as_size(e);
         const double value =
             values_of(block, column.subspan(row * k_mush_numbers, k_mush_numbers))[which_[k]];
         if (value == *field.no_value) continue;
@@ -244,8 +245,7 @@ std::vector<CriterionResult> MushStrain::findings(const CriterionRecord& record)
         where = {};
         const int n = mesh::node_count(block.block->shape);
         for (int a = 0; a < n; ++a)
-          for (std::size_t i = 0; i < 3; ++i)
-            where[i] += mesh_.x[static_cast<std::size_t>(block.block->element(e)[a])][i] / n;
+          for (std::size_t i = 0; i < 3; ++i) where[i] += mesh_.x[as_size(block.block->element(e)[a])][i] / n;
       }
     // The place of the largest value is told by the process that has it.
     processes::sum(volumes);

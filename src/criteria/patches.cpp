@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::criteria {
 
@@ -35,9 +36,9 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> ch
   // Shape functions and gradients at the centre of each kind of element.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     Centre& centre = centres_.emplace_back();
-    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto n = as_size(mesh::node_count(block.shape));
     centre.values.resize(n);
-    centre.gradients.resize(n * static_cast<std::size_t>(mesh::dimension(block.shape)));
+    centre.gradients.resize(n * as_size(mesh::dimension(block.shape)));
     mesh::basis_values(block.shape, centre_of(block.shape), centre.values);
     mesh::basis_gradients(block.shape, centre_of(block.shape), centre.gradients);
     for (const mesh::QuadraturePoint& point : mesh::gauss_rule(block.shape, 1)) centre.weight += point.weight;
@@ -49,17 +50,15 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> ch
 }
 
 void Patches::gather(std::span<const Index> owned) {
-  position_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes), k_not_gathered);
-  for (std::size_t k = 0; k < owned.size(); ++k)
-    position_[static_cast<std::size_t>(owned[k])] = static_cast<std::uint32_t>(k);
+  position_.assign(as_size(mesh_.n_owned_nodes), k_not_gathered);
+  for (std::size_t k = 0; k < owned.size(); ++k) position_[as_size(owned[k])] = static_cast<std::uint32_t>(k);
   // Each pair of a gathered node and an element around it.
   const auto each = [&](const auto& visit) {
     for_elements([&](const Element& e) {
-      const std::uint32_t number =
-          first_[static_cast<std::size_t>(e.block)] + static_cast<std::uint32_t>(e.number);
+      const std::uint32_t number = first_[as_size(e.block)] + static_cast<std::uint32_t>(e.number);
       for (const Index node : nodes(e)) {
         if (node >= mesh_.n_owned_nodes) continue;
-        const std::uint32_t position = position_[static_cast<std::size_t>(node)];
+        const std::uint32_t position = position_[as_size(node)];
         if (position != k_not_gathered) visit(position, number);
       }
     });
@@ -84,13 +83,13 @@ void Patches::clear() {
 }
 
 Patches::Around Patches::around(Index node) const {
-  const std::uint32_t k = position_[static_cast<std::size_t>(node)];
+  const std::uint32_t k = position_[as_size(node)];
   assert(k != k_not_gathered);
   return {*this, elements_.data() + start_[k], elements_.data() + start_[k + 1]};
 }
 
 Patches::Gradient Patches::gradient(const Element& e, std::span<const double> values) const {
-  const Centre& centre = centres_[static_cast<std::size_t>(e.block)];
+  const Centre& centre = centres_[as_size(e.block)];
   const std::span<const Index> element = nodes(e);
   const std::size_t dim = centre.gradients.size() / centre.values.size();
   Matrix j{};                     // J_ij = ∂x_i/∂ξ_j
@@ -98,7 +97,7 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
   // At the centre of the element: Jacobian, slope in reference coordinates and, in axisymmetry, the radius.
   double radius = 0;
   for (std::size_t a = 0; a < element.size(); ++a) {
-    const mesh::Point& x = mesh_.x[static_cast<std::size_t>(element[a])];
+    const mesh::Point& x = mesh_.x[as_size(element[a])];
     radius += centre.values[a] * x[0];
     for (std::size_t k = 0; k < dim; ++k) {
       const double dn = centre.gradients[a * dim + k];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::criteria {
@@ -29,8 +30,8 @@ class Patches {
   template <class Visit>
   void for_elements(const Visit& visit) const {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-      if (chosen_[static_cast<std::size_t>(mesh_.blocks[b].body)] == 0) continue;
-      for (Index e = 0; e < mesh_.blocks[b].size(); ++e) visit(Element{static_cast<Index>(b), e});
+      if (chosen_[as_size(mesh_.blocks[b].body)] == 0) continue;
+      for (Index e = 0; e < mesh_.blocks[b].size(); ++e) visit(Element{as_index(b), e});
     }
   }
 
@@ -62,10 +63,10 @@ class Patches {
   /// Elements of the chosen bodies around one of the nodes gathered.
   Around around(Index node) const;
   std::span<const Index> nodes(const Element& e) const {
-    const mesh::ElementBlock& block = mesh_.blocks[static_cast<std::size_t>(e.block)];
-    return {block.element(e.number), static_cast<std::size_t>(mesh::node_count(block.shape))};
+    const mesh::ElementBlock& block = mesh_.blocks[as_size(e.block)];
+    return {block.element(e.number), as_size(mesh::node_count(block.shape))};
   }
-  int body(const Element& e) const { return mesh_.blocks[static_cast<std::size_t>(e.block)].body; }
+  int body(const Element& e) const { return mesh_.blocks[as_size(e.block)].body; }
 
   struct Gradient {
     mesh::Point value = {};  ///< at the centre of the element, where linear shapes are most accurate
@@ -83,8 +84,8 @@ class Patches {
   };
   Element element(std::uint32_t number) const {
     Index block = 0;
-    while (number >= first_[static_cast<std::size_t>(block) + 1]) ++block;
-    return {block, static_cast<Index>(number - first_[static_cast<std::size_t>(block)])};
+    while (number >= first_[as_size(block) + 1]) ++block;
+    return {block, as_index(number - first_[as_size(block)])};
   }
 
   const mesh::Mesh& mesh_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::criteria {
 
 double PlateTimes::thickness_of(double seconds) const {
@@ -10,7 +12,7 @@ double PlateTimes::thickness_of(double seconds) const {
   // The exponent of t = C D^n goes from one, where the interface governs, to two, where mould or metal do;
   // between two plates of the table it is as good as constant.
   const auto above = std::ranges::upper_bound(time, seconds);
-  const auto right = static_cast<std::size_t>(
+  const auto right = as_size(
       std::clamp<std::ptrdiff_t>(above - time.begin(), 1, static_cast<std::ptrdiff_t>(time.size()) - 1));
   const std::size_t left = right - 1;
   const double exponent = std::log(thickness[right] / thickness[left]) / std::log(time[right] / time[left]);

@@ -9,6 +9,7 @@
 
 #include "criteria/pool_tracking.hpp"
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::criteria {
@@ -79,7 +80,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
       options_(std::move(options)),
       followed_(melting_bodies(mesh, storage, options_.bodies)),
       feeder_(mesh.x.size(), 0),
-      body_(static_cast<std::size_t>(mesh.n_owned_nodes), -1),
+      body_(as_size(mesh.n_owned_nodes), -1),
       ghosts_(mesh),
       connectivity_(mesh, ghosts_, followed_) {
   // Groups that feed (a riser's top, say) are marked at their nodes.
@@ -87,7 +88,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
     const auto nodes = mesh.node_sets.find(group);
     if (nodes == mesh.node_sets.end())
       throw InputError({}, "criteria.feeders: the mesh has no group '" + group + "'");
-    for (const Index node : nodes->second) feeder_[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : nodes->second) feeder_[as_size(node)] = 1;
   }
   const auto n_bodies = static_cast<int>(mesh.bodies.size());
   for (int b = 0; b < n_bodies; ++b) levels_.push_back(FreezingLevels::of(storage.material(b)));
@@ -97,8 +98,8 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
   for (std::size_t i = 0; i < body_.size(); ++i) {
     double most = 0;
     for (int b = 0; b < n_bodies; ++b) {
-      const bool followed = followed_[static_cast<std::size_t>(b)] != 0;
-      const double volume = followed ? storage.volume(static_cast<Index>(i), b) : 0.0;
+      const bool followed = followed_[as_size(b)] != 0;
+      const double volume = followed ? storage.volume(as_index(i), b) : 0.0;
       if (volume > most) body_[i] = b;
       most = std::max(most, volume);
       own += volume;
@@ -110,7 +111,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
 double Pools::volume(std::size_t node) const {
   double volume = 0;
   for (std::size_t b = 0; b < levels_.size(); ++b)
-    if (followed_[b] != 0) volume += storage_.volume(static_cast<Index>(node), static_cast<int>(b));
+    if (followed_[b] != 0) volume += storage_.volume(as_index(node), static_cast<int>(b));
   return volume;
 }
 
@@ -137,8 +138,8 @@ void Pools::step(const CriterionInput& old, const CriterionInput& next, Criterio
 double Pools::passed_at(std::size_t node, const CriterionInput& old, const CriterionInput& next) const {
   const double before = old.solid_fraction[node], after = next.solid_fraction[node];
   if (after <= before || body_[node] < 0) return next.time;
-  const FreezingLevels& levels = levels_[static_cast<std::size_t>(body_[node])];
-  const double solid = after == 1 ? levels.end(storage_, static_cast<Index>(node), old, next) : 1.0;
+  const FreezingLevels& levels = levels_[as_size(body_[node])];
+  const double solid = after == 1 ? levels.end(storage_, as_index(node), old, next) : 1.0;
   const double at = solid * std::clamp((options_.limit - before) / (after - before), 0.0, 1.0);
   return old.time + at * (next.time - old.time);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -34,13 +35,13 @@ Resolution::Resolution(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<ch
       freezes_(std::move(freezes)),
       patches_(mesh, kind, std::vector<char>(mesh.bodies.size(), 1)),
       ghosts_(mesh) {
-  std::vector<char> is_of(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
+  std::vector<char> is_of(as_size(mesh.n_owned_nodes), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
-    if (freezes_[static_cast<std::size_t>(block.body)] != 0)
+    if (freezes_[as_size(block.body)] != 0)
       for (const Index node : block.nodes)
-        if (node < mesh.n_owned_nodes) is_of[static_cast<std::size_t>(node)] = 1;
+        if (node < mesh.n_owned_nodes) is_of[as_size(node)] = 1;
   for (Index i = 0; i < mesh.n_owned_nodes; ++i)
-    if (is_of[static_cast<std::size_t>(i)] != 0) freezing_.push_back(i);
+    if (is_of[as_size(i)] != 0) freezing_.push_back(i);
 }
 
 CriterionRecord Resolution::initial(const CriterionInput& start) const {
@@ -54,7 +55,7 @@ void Resolution::step(const CriterionInput& old, const CriterionInput& next, Cri
   bool melt = false, changed = false;
   // The step within which a node freezes bounds how well the time of freezing is resolved.
   for (const Index node : freezing_) {
-    const auto i = static_cast<std::size_t>(node);
+    const auto i = as_size(node);
     if (old.solid_fraction[i] >= 1) continue;
     melt = true;
     if (next.solid_fraction[i] < 1) continue;
@@ -80,7 +81,7 @@ std::vector<double> Resolution::flow_errors(std::span<const double> temperature)
   // The share of |∇Θ|² that its means at the nodes do not explain says how far the gradient jumps from
   // element to element, body by body.
   std::vector<double> sums(2 * n_bodies, 0.0);  // of body b: Σ V |g|² and what its means at nodes explain
-  std::vector<NodeSums> nodes(static_cast<std::size_t>(mesh_.n_owned_nodes));
+  std::vector<NodeSums> nodes(as_size(mesh_.n_owned_nodes));
   for (std::size_t b = 0; b < n_bodies; ++b) {
     // Sums at the nodes are over owned nodes alone, of all their elements, so that no communication is needed
     // before the end.
@@ -89,12 +90,12 @@ std::vector<double> Resolution::flow_errors(std::span<const double> temperature)
       if (patches_.body(e) != static_cast<int>(b)) return;
       const std::span<const Index> of = patches_.nodes(e);
       std::array<double, k_most_nodes> values{};
-      for (std::size_t a = 0; a < of.size(); ++a) values[a] = temperature[static_cast<std::size_t>(of[a])];
+      for (std::size_t a = 0; a < of.size(); ++a) values[a] = temperature[as_size(of[a])];
       const Patches::Gradient g = patches_.gradient(e, std::span(values).first(of.size()));
       const double share = g.volume / static_cast<double>(of.size());
       for (const Index node : of) {
         if (node >= mesh_.n_owned_nodes) continue;
-        NodeSums& sum = nodes[static_cast<std::size_t>(node)];
+        NodeSums& sum = nodes[as_size(node)];
         sum.volume += share;
         for (std::size_t k = 0; k < 3; ++k) sum.gradient[k] += share * g.value[k];
         sums[2 * b] += share * square(g.value);

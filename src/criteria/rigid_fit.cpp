@@ -2,6 +2,7 @@
 #include "criteria/rigid_fit.hpp"
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -51,17 +52,16 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
     for (const mesh::ElementBlock& block : mesh.blocks) {
       if (block.body != static_cast<int>(b)) continue;
       const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
-      const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+      const auto n = as_size(mesh::node_count(block.shape));
       for (Index e = 0; e < block.n_counted; ++e)
         for (std::size_t a = 0; a < n; ++a)
-          volume[static_cast<std::size_t>(block.element(e)[a])] +=
-              weights[static_cast<std::size_t>(e / k_lanes) * n + a][e % k_lanes];
+          volume[as_size(block.element(e)[a])] += weights[as_size(e / k_lanes) * n + a][e % k_lanes];
     }
     // Nodes without volume in this body are left out; the fourth sum is the volume itself.
     std::array<double, 4> first{};
     for (std::size_t node = 0; node < volume.size(); ++node) {
       if (volume[node] == 0) continue;
-      body.nodes.push_back(static_cast<Index>(node));
+      body.nodes.push_back(as_index(node));
       body.volume.push_back(volume[node]);
       first[3] += volume[node];
       for (std::size_t i = 0; i < 3; ++i) first[i] += volume[node] * mesh.x[node][i];
@@ -74,7 +74,7 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
     // in a plane, none around an axis.
     std::array<double, 9> inertia{};
     for (std::size_t k = 0; k < body.nodes.size(); ++k) {
-      Point r = mesh.x[static_cast<std::size_t>(body.nodes[k])];
+      Point r = mesh.x[as_size(body.nodes[k])];
       for (std::size_t i = 0; i < 3; ++i) r[i] -= body.centre[i];
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
@@ -93,13 +93,13 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
 }
 
 std::vector<SmallMotion> RigidFit::fit(std::span<const double> displacement) const {
-  const auto components = static_cast<std::size_t>(displacement_components(kind_));
+  const auto components = as_size(displacement_components(kind_));
   std::vector<SmallMotion> motions;
   for (const OfBody& body : bodies_) {
     // Mean displacement and moment of the displacements about the centre.
     std::array<double, 6> sums{};
     for (std::size_t k = 0; k < body.nodes.size(); ++k) {
-      const auto node = static_cast<std::size_t>(body.nodes[k]);
+      const auto node = as_size(body.nodes[k]);
       Point u{}, r = mesh_.x[node];
       for (std::size_t i = 0; i < components; ++i) u[i] = displacement[node * components + i];
       for (std::size_t i = 0; i < 3; ++i) r[i] -= body.centre[i];

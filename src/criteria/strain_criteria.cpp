@@ -7,6 +7,7 @@
 
 #include "criteria/quantities.hpp"
 #include "criteria/strain_lanes.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -25,11 +26,11 @@ std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<mater
   // Bodies that freeze first: at a node that they share with a mould they decide.
   for (const bool melts : {true, false})
     for (int b = 0; b < static_cast<int>(mesh.bodies.size()); ++b) {
-      if ((materials[static_cast<std::size_t>(b)].solidification() != nullptr) != melts) continue;
+      if ((materials[as_size(b)].solidification() != nullptr) != melts) continue;
       for (const mesh::ElementBlock& block : mesh.blocks) {
         if (block.body != b) continue;
         for (const Index node : block.nodes) {
-          double& of_node = body[static_cast<std::size_t>(node)];
+          double& of_node = body[as_size(node)];
           if (of_node < 0) of_node = b;
         }
       }
@@ -44,7 +45,7 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
                                const std::vector<material::Material>& materials,
                                std::vector<double> temperature)
     : mesh_(mesh),
-      components_(static_cast<std::size_t>(displacement_components(kind))),
+      components_(as_size(displacement_components(kind))),
       temperature_(std::move(temperature)),
       body_of_node_(bodies_of_nodes(mesh, materials)),
       ghosts_(mesh),
@@ -52,14 +53,14 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
   std::size_t first = 0;
   // The nodes of bodies that freeze, each once, and where the points of each block begin in the history.
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    const material::Material& material = materials[as_size(block.body)];
     blocks_.push_back(
         {ElementStrain(mesh, block, kind), &block, &material.casting, material.solidification(), {}, first});
     std::vector<Index>& nodes = blocks_.back().nodes;
     if (material.solidification() != nullptr) nodes = block.nodes;
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    first += static_cast<std::size_t>(block.size());
+    first += as_size(block.size());
   }
 }
 
@@ -101,7 +102,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
     if (block.freezing == nullptr) continue;
     // Fractions are those of the block's own material, also at nodes that other bodies share.
     for (const Index n : block.nodes) {
-      const auto node = static_cast<std::size_t>(n);
+      const auto node = as_size(n);
       before[node] = solid_fraction(*block.freezing, old, node);
       after[node] = solid_fraction(*block.freezing, next, node);
     }
@@ -113,7 +114,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
       const Lane share = share_within(from, to, low, high);
       const double coherent = block.casting->coherency_fraction;
       const LaneMask melt = from < Lane(coherent);
-      const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
+      const std::size_t first = block.first + as_size(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
       // While an element is melt its nodes move with the melt: the share of the step for which that
       // holds.
@@ -121,7 +122,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
         if (from[lane] >= coherent) continue;
         const double until = to[lane] > coherent ? (coherent - from[lane]) / (to[lane] - from[lane]) : 1.0;
         for (const Index node : block.nodes_of(batch * k_lanes + lane)) {
-          double& of_node = soft[static_cast<std::size_t>(node)];
+          double& of_node = soft[as_size(node)];
           of_node = std::max(of_node, until);
         }
       }
@@ -172,13 +173,13 @@ void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& reco
   // strain of the brittle range.
   for (const OfBlock& block : blocks_)
     for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
-      const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
+      const std::size_t first = block.first + as_size(batch) * k_lanes;
       const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
       const Sym<Lane> reference = load_tensors(record.columns[k_at_coherency].values, k_tensor, first, count);
       const Lane in_liquid = equivalent(reference),
                  since = equivalent(block.strain.strain(u, batch) - reference);
       for (int lane = 0; lane < count; ++lane) {
-        const std::size_t element = first + static_cast<std::size_t>(lane);
+        const std::size_t element = first + as_size(lane);
         values[0][element] = in_liquid[lane];
         values[1][element] = since[lane];
         values[2][element] =
@@ -192,7 +193,7 @@ void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& reco
   for (std::size_t i = 0; i < u.size(); ++i) distortion[i] = u[i] - start[i];
   const std::vector<SmallMotion> motions = rigid_.fit(distortion);
   for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
-    const mesh::Point rigid = motions[static_cast<std::size_t>(body_of_node_[node])].at(mesh_.x[node]);
+    const mesh::Point rigid = motions[as_size(body_of_node_[node])].at(mesh_.x[node]);
     for (std::size_t i = 0; i < components_; ++i) distortion[node * components_ + i] -= rigid[i];
   }
 }
@@ -211,8 +212,7 @@ std::vector<CriterionResult> StrainCriteria::findings(const CriterionRecord& rec
       finding.where = {};
       const int n = mesh::node_count(block.shape);
       for (int a = 0; a < n; ++a)
-        for (std::size_t i = 0; i < 3; ++i)
-          finding.where[i] += mesh_.x[static_cast<std::size_t>(block.element(e)[a])][i] / n;
+        for (std::size_t i = 0; i < 3; ++i) finding.where[i] += mesh_.x[as_size(block.element(e)[a])][i] / n;
     }
   const processes::Largest most = processes::find_largest(mine);
   processes::broadcast(finding.where, most.rank);

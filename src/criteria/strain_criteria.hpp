@@ -29,6 +29,7 @@
 #include "criteria/element_strain.hpp"
 #include "criteria/rigid_fit.hpp"
 #include "material/material.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::criteria {
@@ -60,7 +61,7 @@ class StrainCriteria : public Criterion {
     std::vector<Index> nodes;               ///< of a block that freezes, each once
     std::size_t first;                      ///< element in columns of cells
     std::span<const Index> nodes_of(Index element) const {
-      return {block->element(element), static_cast<std::size_t>(mesh::node_count(block->shape))};
+      return {block->element(element), as_size(mesh::node_count(block->shape))};
     }
   };
   std::span<const double> temperature(const CriterionInput& moment) const;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::criteria {
 
 Sym<Lane> load_tensors(const std::vector<double>& column, std::size_t width, std::size_t first, int count,
@@ -12,7 +14,7 @@ Sym<Lane> load_tensors(const std::vector<double>& column, std::size_t width, std
   Sym<Lane> a;
   for (int lane = 0; lane < count; ++lane)
     for (std::size_t i = 0; i < k_tensor; ++i)
-      a.c[i].set(lane, column[(first + static_cast<std::size_t>(lane)) * width + at + i]);
+      a.c[i].set(lane, column[(first + as_size(lane)) * width + at + i]);
   return a;
 }
 
@@ -20,7 +22,7 @@ void store_tensors(const Sym<Lane>& a, std::size_t width, std::size_t first, int
                    std::vector<double>& column, std::size_t at) {
   for (int lane = 0; lane < count; ++lane)
     for (std::size_t i = 0; i < k_tensor; ++i)
-      column[(first + static_cast<std::size_t>(lane)) * width + at + i] = a.c[i][lane];
+      column[(first + as_size(lane)) * width + at + i] = a.c[i][lane];
 }
 
 Sym<double> tensor_at(const double* numbers) {

@@ -10,6 +10,7 @@
 #include "heat/loads/stage_loads.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "material/time_integration.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/profile.hpp"
@@ -28,10 +29,6 @@ constexpr double k_accuracy = 1e-9;               ///< of a derivative, in the r
 constexpr std::size_t k_most_factorised = 20000;  ///< nodes, whose factors stay small in three dimensions too
 constexpr int k_corrections = 8;     ///< by residuals, where the tangent of a contribution is not exact
 constexpr double k_no_better = 0.5;  ///< residual over that before from which on no correction helps
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 double dot(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
@@ -117,7 +114,7 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
   // The order matters: the system of the run's phase is set up, its residual taken and its matrix assembled
   // at the same state, and each neighbour then uses that one matrix.
   begin(phase_, stage, before, old, before, now);
-  const std::size_t n = at(phase_.mesh_.n_owned_nodes);
+  const std::size_t n = as_size(phase_.mesh_.n_owned_nodes);
   // What the run's own iteration has left of F is not the neighbours' to remove.
   std::vector<double> left(n);
   add_residual(phase_, stage, old, before, now, left);
@@ -162,16 +159,17 @@ ThermalState StepSensitivity::guess(const ThermalPhase& phase, const ThermalStat
   // Heats are kept and temperatures shifted by the difference of the two curves, so that the iteration starts
   // where a changed latent heat or capacity is accounted for already.
   for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
-    end.temperature[at(i)] += phase.storage_->temperature(i, now.enthalpy[at(i)]) -
-                              phase_.storage_->temperature(i, now.enthalpy[at(i)]);
+    end.temperature[as_size(i)] += phase.storage_->temperature(i, now.enthalpy[as_size(i)]) -
+                                   phase_.storage_->temperature(i, now.enthalpy[as_size(i)]);
   // Prescribed temperatures go in last, since the neighbour may prescribe others, and heat has to stay within
   // the range of its curve at such a temperature.
   phase.ghosts_.update(end.temperature, 1);
   phase.system_->parts().prescribed.prescribe(end.temperature);
   for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
-    if (phase.system_->parts().prescribed.fixed()[at(i)])
-      end.enthalpy[at(i)] = std::clamp(now.enthalpy[at(i)], phase.storage_->lower(i, end.temperature[at(i)]),
-                                       phase.storage_->upper(i, end.temperature[at(i)]));
+    if (phase.system_->parts().prescribed.fixed()[as_size(i)])
+      end.enthalpy[as_size(i)] =
+          std::clamp(now.enthalpy[as_size(i)], phase.storage_->lower(i, end.temperature[as_size(i)]),
+                     phase.storage_->upper(i, end.temperature[as_size(i)]));
   return end;
 }
 
@@ -180,13 +178,12 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
   HeatSystem& system = *phase_.system_;
   const NodalEnthalpy& storage = *phase_.storage_;
   const NodalPotential& potential = system.parts().elements.nodal();
-  const std::size_t n = at(phase_.mesh_.n_owned_nodes);
+  const std::size_t n = as_size(phase_.mesh_.n_owned_nodes);
   // The unknown is a potential v of the temperature Θ, in which conduction is nearly symmetric. Its slope
   // dv/dΘ turns steps of v into those of Θ; ghosts need it for the rows at seams.
   slope_.assign(now.temperature.size(), 1.0);
   if (!potential.identity()) {
-    for (std::size_t i = 0; i < n; ++i)
-      slope_[i] = potential.slope(static_cast<Index>(i), now.temperature[i]);
+    for (std::size_t i = 0; i < n; ++i) slope_[i] = potential.slope(as_index(i), now.temperature[i]);
     phase_.ghosts_.update(slope_, 1);
   }
   system.assemble_symmetric(now.temperature, slope_);
@@ -195,7 +192,7 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
   // On a plateau the temperature does not change with the heat: the row is held by a large diagonal, which
   // keeps the structure of the matrix, and the heat of that node follows afterwards.
   for (std::size_t i = 0; i < n; ++i) {
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     double& diagonal = *system.matrix().diagonal_block(node);
     to_heat_[i] = storage.slope(node, now.enthalpy[i]) * slope_[i];
     held_[i] = to_heat_[i] == 0.0 || system.parts().prescribed.fixed()[i] ? 1 : 0;
@@ -216,7 +213,7 @@ void StepSensitivity::multiply(std::vector<double>& step, std::vector<double>& p
   // by entry.
   phase_.system_->matrix().multiply(step, product);
   for (const UnsymmetricPart::Entry& e : phase_.system_->parts().unsymmetric.entries())
-    product[at(e.row)] += e.value * step[at(e.column)];
+    product[as_size(e.row)] += e.value * step[as_size(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i)
     if (held_[i]) product[i] = 0;
 }
@@ -308,7 +305,7 @@ void StepSensitivity::follow(const Stage& stage, std::span<const double> f, std:
   std::vector<double> product(held_.size());
   phase_.system_->matrix().multiply(step, product);
   for (const UnsymmetricPart::Entry& e : system.parts().unsymmetric.entries())
-    product[at(e.row)] += e.value * step[at(e.column)];
+    product[as_size(e.row)] += e.value * step[as_size(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i) {
     // Prescribed nodes have their end already; a node on a plateau takes the heat that the balance leaves at
     // its fixed temperature, all others move along their curves.

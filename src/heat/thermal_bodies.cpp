@@ -12,16 +12,13 @@
 #include "heat/storage/point_storage.hpp"
 #include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
 namespace {
 
 constexpr double k_counted_from = 293.15;  ///< heat contents [K]
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 
@@ -50,9 +47,9 @@ double ThermalPhase::take_out(const linear::ActiveSet& active, ThermalState& sta
   double carried = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     const double heat = heat_at(state, i), cold = storage_->upper(i, k_counted_from);
-    const double left = storage_->held_by(active, i, heat, state.temperature[at(i)]);
+    const double left = storage_->held_by(active, i, heat, state.temperature[as_size(i)]);
     carried += heat - left - (cold - storage_->held_by(active, i, cold, k_counted_from));
-    if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
+    if (!state.enthalpy.empty()) state.enthalpy[as_size(i)] = left;
   }
   if (options_.integration == HeatIntegration::closed) ghosts_.update(state.enthalpy, 1);
   return parallel::global_sum(carried);
@@ -68,7 +65,7 @@ double ThermalPhase::put_in(const linear::ActiveSet& before, const std::function
     double kept = 0;  // with the open rule the heat of bodies that were there follows from the temperature
     const double heat = storage_->sum_of_bodies(i, [&](int body) {
       if (before.body(body)) {
-        kept += storage_->volume(i, body) * storage_->body_enthalpy(body, state.temperature[at(i)]);
+        kept += storage_->volume(i, body) * storage_->body_enthalpy(body, state.temperature[as_size(i)]);
         return 0.0;
       }
       any = true;
@@ -81,9 +78,9 @@ double ThermalPhase::put_in(const linear::ActiveSet& before, const std::function
       return before.body(body) ? 0.0 : storage_->body_enthalpy(body, k_counted_from);
     });
     // The node's temperature is that of the heat of all its bodies together.
-    const double all = heat + (state.enthalpy.empty() ? kept : state.enthalpy[at(i)]);
-    if (!state.enthalpy.empty()) state.enthalpy[at(i)] = all;
-    state.temperature[at(i)] = storage_->temperature(i, all);
+    const double all = heat + (state.enthalpy.empty() ? kept : state.enthalpy[as_size(i)]);
+    if (!state.enthalpy.empty()) state.enthalpy[as_size(i)] = all;
+    state.temperature[as_size(i)] = storage_->temperature(i, all);
   }
   ghosts_.update(state.temperature, 1);
   if (nodal()) ghosts_.update(state.enthalpy, 1);
@@ -121,7 +118,7 @@ ThermalState ThermalPhase::initial_state(std::span<const double> body_temperatur
   std::vector<double> enthalpy;
   for (std::size_t b = 0; b < body_temperature.size(); ++b)
     enthalpy.push_back(storage_->body_enthalpy(static_cast<int>(b), body_temperature[b]));
-  return initial_state_of([&](Index, int body) { return enthalpy[at(body)]; });
+  return initial_state_of([&](Index, int body) { return enthalpy[as_size(body)]; });
 }
 
 ThermalState ThermalPhase::initial_state_of(const std::function<double(Index, int)>& enthalpy) const {
@@ -129,10 +126,11 @@ ThermalState ThermalPhase::initial_state_of(const std::function<double(Index, in
   state.temperature.resize(mesh_.x.size());
   state.enthalpy.resize(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    state.enthalpy[at(i)] = storage_->sum_of_bodies(i, [&](int body) { return enthalpy(i, body); });
+    state.enthalpy[as_size(i)] = storage_->sum_of_bodies(i, [&](int body) { return enthalpy(i, body); });
     // A node at which nothing has grown yet has no heat, and a temperature that nothing reads.
     const bool bare = storage_->sum_of_bodies(i, [](int) { return 1.0; }) == 0;
-    state.temperature[at(i)] = bare ? k_counted_from : storage_->temperature(i, state.enthalpy[at(i)]);
+    state.temperature[as_size(i)] =
+        bare ? k_counted_from : storage_->temperature(i, state.enthalpy[as_size(i)]);
   }
   ghosts_.update(state.temperature, 1);
   ghosts_.update(state.enthalpy, 1);
@@ -145,7 +143,7 @@ ThermalState ThermalPhase::initial_state_at_nodes(std::span<const double> temper
   if (!nodal()) return state;
   state.enthalpy.resize(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-    state.enthalpy[at(i)] = storage_->upper(i, temperature[at(i)]);
+    state.enthalpy[as_size(i)] = storage_->upper(i, temperature[as_size(i)]);
   ghosts_.update(state.enthalpy, 1);
   return state;
 }

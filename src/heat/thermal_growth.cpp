@@ -12,6 +12,7 @@
 #include "heat/storage/point_storage.hpp"
 #include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -46,7 +47,7 @@ double ThermalPhase::grow(const ThermalConditions& conditions, const std::functi
     const double heat = of_new([&](int body) { return fresh(i, body); });
     if (!any) continue;
     carried += heat - of_new([&](int body) { return storage_->body_enthalpy(body, k_counted_from); });
-    const auto node = static_cast<std::size_t>(i);
+    const auto node = as_size(i);
     state->enthalpy[node] += heat;
     state->temperature[node] = storage_->temperature(i, state->enthalpy[node]);
   }

@@ -13,6 +13,7 @@
 #include "heat/storage/consistent_heat.hpp"
 #include "heat/storage/point_storage.hpp"
 #include "heat/storage/printed_heat.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
@@ -82,7 +83,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
       if (factor != 0) block->extrapolate(stage.temperature, factor);
     }
     phase_.temperature_system_->use_storage(true);
-    residual_.resize(static_cast<std::size_t>(phase_.mesh_.n_owned_nodes));
+    residual_.resize(as_size(phase_.mesh_.n_owned_nodes));
   }
 }
 
@@ -127,7 +128,7 @@ void ThermalIteration::evaluate() {
 bool ThermalIteration::revise_limits() {
   const TemperatureRange range = phase_.system_->limits().closed(range_, at_start_, now_.temperature);
   double beyond = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(phase_.mesh_.n_owned_nodes); ++i)
+  for (std::size_t i = 0; i < as_size(phase_.mesh_.n_owned_nodes); ++i)
     beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});
   const double width = range.highest - range.lowest;
   if (!(parallel::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;

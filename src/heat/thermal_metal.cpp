@@ -11,6 +11,7 @@
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mesh/shape.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::heat {
@@ -21,10 +22,6 @@ namespace {
 /// Mass Transfer, 2007, table A.4).
 constexpr double k_gas_conductivity = 0.06;  ///< [W/(m K)]
 constexpr double k_gas_capacity = 450;       ///< ρ c_p [J/(m³ K)]
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 
@@ -48,8 +45,8 @@ void ThermalPhase::move_metal(const MovedMetal& metal, ThermalState* state) {
   // Temperatures follow from the heats where metal has come or gone.
   if (state != nullptr) {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      if (held[at(i)] != held_at(i))
-        state->temperature[at(i)] = storage_->temperature(i, state->enthalpy[at(i)]);
+      if (held[as_size(i)] != held_at(i))
+        state->temperature[as_size(i)] = storage_->temperature(i, state->enthalpy[as_size(i)]);
     ghosts_.update(state->temperature, 1);
     ghosts_.update(state->enthalpy, 1);
   }
@@ -62,31 +59,32 @@ void ThermalPhase::move_metal(const MovedMetal& metal, ThermalState* state) {
 bool ThermalPhase::carry_heat(std::span<const char> moves, std::span<const double> held,
                               ThermalState& state) const {
   // First the sums: heat that leaves, and room whose metal arrives.
-  std::vector<double> change(at(mesh_.n_owned_nodes), 0.0);
+  std::vector<double> change(as_size(mesh_.n_owned_nodes), 0.0);
   std::array<double, 2> sums{};
   auto& [leaves, arrives] = sums;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const double before = held_at(i), gain = held[at(i)] - before;
+    const double before = held_at(i), gain = held[as_size(i)] - before;
     if (gain == 0) continue;
     double room = 0;
     for (std::size_t body = 0; body < moves.size(); ++body)
       if (moves[body] != 0) room += storage_->volume(i, static_cast<int>(body));
     if (room == 0) continue;
     if (gain > 0) {
-      change[at(i)] = gain * room;
+      change[as_size(i)] = gain * room;
       arrives += gain * room;
     } else {
-      const double heat = storage_->heat_of(moves, i, state.enthalpy[at(i)], state.temperature[at(i)]);
-      change[at(i)] = heat * gain / before;
-      leaves -= change[at(i)];
+      const double heat =
+          storage_->heat_of(moves, i, state.enthalpy[as_size(i)], state.temperature[as_size(i)]);
+      change[as_size(i)] = heat * gain / before;
+      leaves -= change[as_size(i)];
     }
   }
   processes::sum(sums);
   if (!(arrives > 0)) return false;
   // Then each node that gets metal has its part of that heat.
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const bool gets = held[at(i)] > held_at(i);
-    state.enthalpy[at(i)] += gets ? change[at(i)] / arrives * leaves : change[at(i)];
+    const bool gets = held[as_size(i)] > held_at(i);
+    state.enthalpy[as_size(i)] += gets ? change[as_size(i)] / arrives * leaves : change[as_size(i)];
   }
   return true;
 }
@@ -97,14 +95,14 @@ void ThermalPhase::share_conduction(const MovedMetal& metal) {
   bool any = false;
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh_.blocks[b];
-    if (metal.moves[at(block.body)] == 0) continue;
-    const double gas = k_gas_conductivity / elements.potentials()[at(block.body)].reference();
+    if (metal.moves[as_size(block.body)] == 0) continue;
+    const double gas = k_gas_conductivity / elements.potentials()[as_size(block.body)].reference();
     const Index n = mesh::node_count(block.shape);
-    std::vector<double> share(at(block.size()));
+    std::vector<double> share(as_size(block.size()));
     for (Index e = 0; e < block.size(); ++e) {
       double filled = 0;
-      for (Index a = 0; a < n; ++a) filled += metal.filled[at(block.element(e)[a])];
-      share[at(e)] = gas + (1 - gas) * filled / n;
+      for (Index a = 0; a < n; ++a) filled += metal.filled[as_size(block.element(e)[a])];
+      share[as_size(e)] = gas + (1 - gas) * filled / n;
       any = any || filled < n;
     }
     elements.set_shares(b, std::move(share));

@@ -15,16 +15,11 @@
 #include "heat/storage/point_storage.hpp"
 #include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_iteration.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
-namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                            const std::vector<material::Material>& materials,
@@ -104,12 +99,12 @@ void ThermalPhase::build(const ThermalConditions& conditions) {
 ThermalPhase::~ThermalPhase() = default;
 
 std::unique_ptr<PointStorage> ThermalPhase::store_at_points(const mesh::ElementBlock& block) const {
-  return make_point_storage(mesh_, block, kind_, materials_[at(block.body)], options_.sensible,
+  return make_point_storage(mesh_, block, kind_, materials_[as_size(block.body)], options_.sensible,
                             options_.open_degree);
 }
 
 bool ThermalPhase::at_nodes(int body) const {
-  return options_.integration == HeatIntegration::closed || materials_[at(body)].changes_isothermally();
+  return options_.integration == HeatIntegration::closed || materials_[as_size(body)].changes_isothermally();
 }
 
 std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {

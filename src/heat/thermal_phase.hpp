@@ -34,6 +34,7 @@
 #include "linear/contribution.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/load_window.hpp"
 #include "numbers/types.hpp"
 
@@ -316,7 +317,7 @@ class ThermalPhase {
   std::vector<double> at_least_gas(const MovedMetal& metal) const;
   bool carry_heat(std::span<const char> moves, std::span<const double> held, ThermalState& state) const;
   void share_conduction(const MovedMetal& metal);
-  double held_at(Index node) const { return held_.empty() ? 1.0 : held_[static_cast<std::size_t>(node)]; }
+  double held_at(Index node) const { return held_.empty() ? 1.0 : held_[as_size(node)]; }
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const linear::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;

@@ -9,17 +9,12 @@
 #include "heat/storage/point_storage.hpp"
 #include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
-namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& next,
                                   std::span<const double> residual, double moved, double dt) const {
@@ -27,7 +22,8 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
   double stored = 0;
   // Stored is the difference of the nodal enthalpies, or that at points, and what consistent heat adds.
   if (nodal()) {
-    for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) stored += next.enthalpy[i] - old.enthalpy[i];
+    for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i)
+      stored += next.enthalpy[i] - old.enthalpy[i];
     if (consistent_) stored += consistent_->surplus().stored(next.temperature);
   } else {
     for (const auto& block : points_) stored += block->stored(next.temperature);
@@ -46,8 +42,8 @@ void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, con
   } else {
     if (consistent_) latent += consistent_->surplus().latent(old.temperature, next.temperature);
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      latent += storage_->latent(i, next.enthalpy[at(i)], next.temperature[at(i)]) -
-                storage_->latent(i, old.enthalpy[at(i)], old.temperature[at(i)]);
+      latent += storage_->latent(i, next.enthalpy[as_size(i)], next.temperature[as_size(i)]) -
+                storage_->latent(i, old.enthalpy[as_size(i)], old.temperature[as_size(i)]);
   }
   balance.latent = parallel::global_sum(latent);
   balance.sensible = balance.stored - balance.latent;
@@ -84,15 +80,15 @@ std::vector<ChannelReading> ThermalPhase::channel_readings(double dt) const {
 }
 
 double ThermalPhase::heat_at(const ThermalState& state, Index node) const {
-  return state.enthalpy.empty() ? storage_->upper(node, state.temperature[at(node)])
-                                : state.enthalpy[at(node)];
+  return state.enthalpy.empty() ? storage_->upper(node, state.temperature[as_size(node)])
+                                : state.enthalpy[as_size(node)];
 }
 
 std::vector<double> ThermalPhase::plateau_share(const ThermalState& state) const {
   if (!storage_->has_plateaus()) return {};
   std::vector<double> share(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-    share[at(i)] = storage_->plateau_share(i, heat_at(state, i), state.temperature[at(i)]);
+    share[as_size(i)] = storage_->plateau_share(i, heat_at(state, i), state.temperature[as_size(i)]);
   ghosts_.update(share, 1);
   return share;
 }
@@ -100,7 +96,7 @@ std::vector<double> ThermalPhase::plateau_share(const ThermalState& state) const
 std::vector<double> ThermalPhase::solid_fraction(const ThermalState& state) const {
   std::vector<double> fraction(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-    fraction[at(i)] = storage_->solid_fraction(i, heat_at(state, i), state.temperature[at(i)]);
+    fraction[as_size(i)] = storage_->solid_fraction(i, heat_at(state, i), state.temperature[as_size(i)]);
   ghosts_.update(fraction, 1);
   return fraction;
 }
@@ -109,7 +105,7 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state, int body) co
   double solid = 0, volume = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     volume += storage_->volume(i, body);
-    solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[at(i)]);
+    solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[as_size(i)]);
   }
   return parallel::global_sum(solid) / parallel::global_sum(volume);
 }
@@ -122,7 +118,7 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
     if (!storage_->can_melt(body)) continue;
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
       volume += storage_->volume(i, body);
-      solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[at(i)]);
+      solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[as_size(i)]);
     }
   }
   volume = parallel::global_sum(volume);
@@ -143,9 +139,9 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
   } else {
     if (consistent_) add(consistent_->surplus().entropy_change(from.temperature, to.temperature));
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-      const double heat = from.enthalpy[at(i)], temperature = from.temperature[at(i)];
+      const double heat = from.enthalpy[as_size(i)], temperature = from.temperature[as_size(i)];
       const double before = storage_->entropy(i, heat, temperature);
-      const double after = storage_->entropy(i, to.enthalpy[at(i)], to.temperature[at(i)]);
+      const double after = storage_->entropy(i, to.enthalpy[as_size(i)], to.temperature[as_size(i)]);
       // What the iteration has left between heat and temperature of a node is counted as `behind`.
       const double behind =
           std::max({0.0, storage_->lower(i, temperature) - heat, heat - storage_->upper(i, temperature)});
@@ -161,7 +157,7 @@ double ThermalPhase::enthalpy(const ThermalState& state) const {
   if (!nodal()) {
     for (const auto& block : points_) sum += block->enthalpy(state.temperature);
   } else {
-    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) sum += state.enthalpy[at(i)];
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) sum += state.enthalpy[as_size(i)];
     if (consistent_) sum += consistent_->surplus().enthalpy(state.temperature);
   }
   return parallel::global_sum(sum);
@@ -172,7 +168,7 @@ double ThermalPhase::mean_temperature(const ThermalState& state, int body) const
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     const double v = storage_->volume(i, body);
     volume += v;
-    sum += v * state.temperature[at(i)];
+    sum += v * state.temperature[as_size(i)];
   }
   return parallel::global_sum(sum) / parallel::global_sum(volume);
 }

@@ -18,6 +18,7 @@
 #include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
 #include "linear/newton.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
@@ -31,10 +32,6 @@ constexpr int k_one_component[] = {1};
 /// of this share of the heat moved stays out.
 constexpr int k_steady_revisions = 20;
 constexpr double k_limit_change = 1e-6;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
   last.add_solves(report);
@@ -56,7 +53,7 @@ ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState
   temperature_system_->use_storage(false);
   if (consistent_) consistent_->use(false);
   ThermalReport report;
-  std::vector<double> residual(at(mesh_.n_owned_nodes));
+  std::vector<double> residual(as_size(mesh_.n_owned_nodes));
   const TemperatureRange range = limit_conduction({temperature, {}}, start).range;
   system_->limits().clear();  // a linear field, say, needs none
   report.newton = solve_steady_balance(temperature, residual);
@@ -146,7 +143,7 @@ void ThermalPhase::require(const linear::NewtonReport& report, std::span<const d
 
 void ThermalPhase::require_positive(std::span<const double> temperature) const {
   WorstNode coldest;
-  for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) coldest.look(i, -temperature[i]);
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) coldest.look(i, -temperature[i]);
   const double lowest = -parallel::global_max(coldest.size);
   if (lowest > 0) return;
   throw HeatRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)

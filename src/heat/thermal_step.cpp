@@ -18,6 +18,7 @@
 #include "heat/storage/printed_heat.hpp"
 #include "heat/thermal_phase.hpp"
 #include "material/time_integration.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
@@ -32,10 +33,6 @@ constexpr double k_far_overshoot = 0.01;
 
 using material::k_sdirk_carried;
 using material::k_sdirk_share;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Adds the last stage: total = last + carried × first, of all that counts in joules.
 void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
@@ -173,7 +170,7 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
       if (stage.carried != 0) block->extrapolate(before.temperature, stage.carried);
     }
     temperature_system_->use_storage(true);
-    std::vector<double> residual(at(mesh_.n_owned_nodes));
+    std::vector<double> residual(as_size(mesh_.n_owned_nodes));
     report.newton = solve_temperature(next.temperature, residual, pass.newton_steps);
     report.hardest = report.newton.effort;
     report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
@@ -207,7 +204,7 @@ std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from,
                                                 ThermalReport& report) {
   HeatParts& parts = system_->parts();
   const bool follows = (parts.enclosed.any() || parts.channels.any()) && !pass.adiabatic;
-  std::vector<double> changed(follows ? at(mesh_.n_owned_nodes) : 0);
+  std::vector<double> changed(follows ? as_size(mesh_.n_owned_nodes) : 0);
   if (follows) system_->begin_exchange(next.temperature);
   for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
     // Each one starts from the temperatures of the one before; Newton's iterations of all count together.
@@ -251,7 +248,7 @@ ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalSta
 // store heat.
 std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
                                        const linear::RungeKuttaStage& stage) const {
-  std::vector<double> flow(at(mesh_.n_owned_nodes));
+  std::vector<double> flow(as_size(mesh_.n_owned_nodes));
   for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
   const std::span<const double> stored = system_->parts().contributions.stored();
   for (std::size_t i = 0; i < stored.size(); ++i) flow[i] += stored[i];
@@ -264,18 +261,19 @@ ThermalState ThermalPhase::start(const ThermalState& old, const LoadWindow& load
   system_->parts().prescribed.prescribe(next.temperature);
   if (nodal())
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      if (all || system_->parts().prescribed.fixed()[at(i)])
-        next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
-                                          storage_->upper(i, next.temperature[at(i)]));
+      if (all || system_->parts().prescribed.fixed()[as_size(i)])
+        next.enthalpy[as_size(i)] =
+            std::clamp(old.enthalpy[as_size(i)], storage_->lower(i, next.temperature[as_size(i)]),
+                       storage_->upper(i, next.temperature[as_size(i)]));
   return next;
 }
 
 /// Starts the iteration from heats instead of temperatures, where it is free.
 void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) const {
-  for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
     if (system_->parts().prescribed.fixed()[i]) continue;
     next.enthalpy[i] = heat[i];
-    next.temperature[i] = storage_->temperature(static_cast<Index>(i), heat[i]);
+    next.temperature[i] = storage_->temperature(as_index(i), heat[i]);
   }
   ghosts_.update(next.enthalpy, 1);
   ghosts_.update(next.temperature, 1);
@@ -293,7 +291,7 @@ ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, cons
     system_->limits().find(temperature);
   }
   TemperatureRange start;
-  for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
     start.lowest = std::min({start.lowest, temperature[i], old.temperature[i]});
     start.highest = std::max({start.highest, temperature[i], old.temperature[i]});
   }
@@ -327,7 +325,7 @@ std::vector<double> ThermalPhase::time_error(const ThermalState& now, const Stag
 }
 
 std::vector<double> ThermalPhase::change_in_kelvin(const ThermalState& a, const ThermalState& b) const {
-  std::vector<double> heat(at(mesh_.n_owned_nodes));
+  std::vector<double> heat(as_size(mesh_.n_owned_nodes));
   for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = b.enthalpy[i] - a.enthalpy[i];
   return spread_->at_once(heat, b.temperature);
 }

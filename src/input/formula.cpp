@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "input/keys.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus {
 
@@ -63,7 +64,7 @@ std::size_t operand_end(const std::string& text, std::size_t from, int step) {
   const char opens = step > 0 ? '(' : ')', closes = step > 0 ? ')' : '(';
   int depth = 0;
   std::size_t i = from;
-  for (; i < text.size(); i += static_cast<std::size_t>(step)) {  // below zero it wraps round to the end
+  for (; i < text.size(); i += as_size(step)) {  // below zero it wraps round to the end
     if (text[i] == opens) ++depth;
     if (text[i] == closes && --depth < 0) break;
     if (depth == 0 && ends_operand(text[i])) break;
@@ -139,8 +140,7 @@ Formula::Formula(std::string text, const std::vector<std::string>& variables, co
           fmt::format("the formula gives {} values, not one", parser.GetNumResults()));
     // The variables that occur are noted, so that a formula without time is known to be steady.
     for (const auto& used : parser.GetUsedVar())
-      uses_[static_cast<std::size_t>(std::find(variables.begin(), variables.end(), used.first) -
-                                     variables.begin())] = 1;
+      uses_[as_size(std::find(variables.begin(), variables.end(), used.first) - variables.begin())] = 1;
   } catch (const mu::ParserError& error) {
     for (const std::string& function : functions()) names.push_back(function);
     throw std::invalid_argument(problem(error, names));

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 namespace {
 
@@ -117,7 +119,7 @@ class Reader {
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), result);
     const char first = text_[at_];
     if (error != std::errc{} || !(first == '-' || (first >= '0' && first <= '9'))) fail("expected a value");
-    at_ = static_cast<std::size_t>(end - text_.data());
+    at_ = as_size(end - text_.data());
     return result;
   }
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 
 namespace {
@@ -243,7 +245,7 @@ std::string schema_of_value(const Key& key, int depth) {
 }
 
 std::string schema_of_section(const SectionInfo& info, int depth) {
-  const std::string indent(static_cast<std::size_t>(2 * depth + 2), ' ');
+  const std::string indent(as_size(2 * depth + 2), ' ');
   std::string properties;
   // Each key becomes a property: its text with its conditions, its type, and the list around it where the key
   // takes one.

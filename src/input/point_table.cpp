@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "input/keys.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/input_file.hpp"
 
 namespace solidus {
@@ -124,7 +125,7 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
       std::find_if(headings.begin(), headings.end(), [&](const Heading& h) { return h.name == value; });
   if (found == headings.end())
     throw InputError(where, fmt::format("the table has no column '{}'", value), one_of(others, value));
-  add(static_cast<std::size_t>(found - headings.begin()), unit);
+  add(as_size(found - headings.begin()), unit);
   return result;
 }
 
@@ -209,7 +210,7 @@ double PointTable::on_grid(std::span<const double> at, std::size_t axis, std::si
   const std::size_t base = offset * x.size();
   if (x.size() == 1 || at[axis] <= x.front()) return on_grid(at, axis + 1, base);
   if (at[axis] >= x.back()) return on_grid(at, axis + 1, base + x.size() - 1);
-  const auto next = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at[axis]) - x.begin());
+  const auto next = as_size(std::upper_bound(x.begin(), x.end(), at[axis]) - x.begin());
   const double part = (at[axis] - x[next - 1]) / (x[next] - x[next - 1]);
   const double before = on_grid(at, axis + 1, base + next - 1);
   return part == 0 ? before : before + part * (on_grid(at, axis + 1, base + next) - before);
@@ -249,8 +250,7 @@ double PointTable::value(std::span<const double> at) const {
   if (!axes_.empty()) return on_grid(at, 0, 0);
   if (times_.empty()) return scattered(at, 0, points_.size());
   const double t = std::clamp(at[n_space_], times_.front(), times_.back());
-  const auto next =
-      static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin());
+  const auto next = as_size(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin());
   const double before = scattered(at, first_of_time_[next - 1], first_of_time_[next]);
   if (next == times_.size() || t == times_[next - 1]) return before;
   const double after = scattered(at, first_of_time_[next], first_of_time_[next + 1]);

@@ -10,6 +10,7 @@
 
 #include "input/column_table.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/input_file.hpp"
 
 namespace solidus {
@@ -122,7 +123,7 @@ class Machine {
     for (const Word& word : all)
       if (word.letter == 'G' || word.letter == 'M') code(word);
     for (const Word& word : all) {
-      const auto axis = static_cast<std::size_t>(word.letter - 'X');
+      const auto axis = as_size(word.letter - 'X');
       if (word.letter >= 'X' && word.letter <= 'Z') {
         target[axis] = (relative_ ? x_[axis] : 0) + unit_ * word.number;
         moves = true;
@@ -245,7 +246,7 @@ TravelPath::TravelPath(std::vector<TravelPoint> points) : points_(std::move(poin
 std::size_t TravelPath::segment(double time) const {
   const auto after = std::upper_bound(points_.begin(), points_.end(), time,
                                       [](double t, const TravelPoint& p) { return t < p.time; });
-  const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - points_.begin() - 1, 0));
+  const auto i = as_size(std::max<std::ptrdiff_t>(after - points_.begin() - 1, 0));
   return std::min(i, headings_.size() - 1);
 }
 

@@ -13,6 +13,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::units {
 namespace {
 
@@ -143,7 +145,7 @@ Quantity split_quantity(std::string_view text) {
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), quantity.value);
   if (error != std::errc{} || !std::isfinite(quantity.value))
     throw std::invalid_argument("'" + std::string(text) + "' does not begin with a finite number");
-  rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+  rest.remove_prefix(as_size(end - rest.data()));
   // What follows the number is the unit, without blanks around it.
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   quantity.unit = rest.substr(0, rest.find_last_not_of(" \t") + 1);

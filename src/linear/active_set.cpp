@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::linear {
@@ -17,8 +18,7 @@ mesh::FaceKey face_of_element(const mesh::ElementBlock& block, Index element, in
   const auto local = mesh::face_nodes(block.shape, face);
   std::array<Index, 4> vertices{};
   const int n = mesh::vertex_count(mesh::face_shape(block.shape));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
-    vertices[i] = block.element(element)[local[i]];
+  for (std::size_t i = 0; i < as_size(n); ++i) vertices[i] = block.element(element)[local[i]];
   return mesh::face_key(vertices.data(), n);
 }
 
@@ -32,13 +32,13 @@ ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent
                                     [&](const mesh::Body& body) { return body.name == name; });
     if (found == mesh.bodies.end())
       throw std::invalid_argument("no body '" + name + "' in the mesh that could be absent");
-    bodies_[static_cast<std::size_t>(found - mesh.bodies.begin())] = 0;
+    bodies_[as_size(found - mesh.bodies.begin())] = 0;
   }
   // A process holds every element at the nodes it owns; their owners know the ghosts.
   std::vector<double> touched(mesh.x.size(), 0.0);
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (body(block.body))
-      for (const Index node : block.nodes) touched[static_cast<std::size_t>(node)] = 1;
+      for (const Index node : block.nodes) touched[as_size(node)] = 1;
   // Without bodies that are absent all nodes have elements, but where a body grows (growing_mesh.hpp).
   const auto owned = static_cast<std::ptrdiff_t>(mesh.n_owned_nodes);
   if (complete_) {
@@ -81,7 +81,7 @@ mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surfa
       if (reversed(faces) && !found.contains(key(faces, f))) continue;
       const Index* nodes = faces.element(f);
       to.nodes.insert(to.nodes.end(), nodes, nodes + mesh::node_count(faces.shape));
-      to.input_element.push_back(faces.input_element[static_cast<std::size_t>(f)]);
+      to.input_element.push_back(faces.input_element[as_size(f)]);
       if (f < faces.n_counted) ++to.n_counted;
     }
   }

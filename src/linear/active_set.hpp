@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::linear {
 
@@ -21,9 +22,9 @@ class ActiveSet {
 
   /// Whether all bodies are active.
   bool complete() const { return complete_; }
-  bool body(int body) const { return bodies_[static_cast<std::size_t>(body)] != 0; }
+  bool body(int body) const { return bodies_[as_size(body)] != 0; }
   /// [local node], ghosts included.
-  bool node(Index node) const { return nodes_[static_cast<std::size_t>(node)] != 0; }
+  bool node(Index node) const { return nodes_[as_size(node)] != 0; }
   /// Returns the active faces of a surface of that mesh, in blocks like its own; without its nodes.
   mesh::Surface part(const mesh::Mesh& mesh, const mesh::Surface& surface) const;
   /// Whether the faces belong to an inactive body (where two bodies share nodes, faces belong to the first of

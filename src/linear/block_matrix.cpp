@@ -9,6 +9,7 @@
 
 #include "multigrid/matrix_view.hpp"
 #include "multigrid/symmetric_product.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
@@ -23,10 +24,6 @@ namespace {
 constexpr std::size_t k_overhang = 8;
 /// Columns of a row, in any order, through which a further one is looked for.
 constexpr std::size_t k_searched = 64;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Adds a column once to a row of few. A long row, of contact say, may have it several times over between two
 /// growths: then it is freed of repetitions first, so that its memory follows from its columns, not from the
@@ -44,10 +41,10 @@ void add_column(Index column, std::vector<Index>& row) {
 
 }  // namespace
 
-NodeGraph::NodeGraph(const mesh::Mesh& mesh) : mesh_(mesh), rows_(at(mesh.n_owned_nodes)) {}
+NodeGraph::NodeGraph(const mesh::Mesh& mesh) : mesh_(mesh), rows_(as_size(mesh.n_owned_nodes)) {}
 
 void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
-  const auto count = static_cast<std::size_t>(n);
+  const auto count = as_size(n);
   assert(nodes.size() % count == 0);
   // Every pair of nodes of an element, in the rows of this process.
   for (std::size_t start = 0; start < nodes.size(); start += count) {
@@ -55,9 +52,9 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
     const auto clique = nodes.subspan(start, count);
     for (Index row : clique) {
       if (row >= mesh_.n_owned_nodes) continue;
-      if (!left_out_.empty() && left_out_[at(row)]) continue;
+      if (!left_out_.empty() && left_out_[as_size(row)]) continue;
       for (const Index column : clique)
-        if (left_out_.empty() || !left_out_[at(column)]) add_column(column, rows_[at(row)]);
+        if (left_out_.empty() || !left_out_[as_size(column)]) add_column(column, rows_[as_size(row)]);
     }
   }
 }
@@ -67,7 +64,7 @@ void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index
   // from the diagonal on.
   std::size_t n_columns = 0;
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    auto& list = rows_[at(row)];
+    auto& list = rows_[as_size(row)];
     add_column(row, list);  // the diagonal always exists
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -95,7 +92,7 @@ BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph
     : mesh_(mesh),
       block_size_(block_size),
       storage_(storage),
-      fixed_(at(mesh.n_nodes()) * static_cast<std::size_t>(block_size), 0),
+      fixed_(as_size(mesh.n_nodes()) * as_size(block_size), 0),
       petsc_(std::make_unique<Petsc>()) {
   set_graph(std::move(graph));
 }
@@ -106,12 +103,12 @@ void BlockMatrix::set_graph(NodeGraph graph) {
   left_out_ = graph.left_out();
   const bool upper = storage_ == Storage::upper;
   graph.compress(row_start_, columns_, upper);
-  const auto bs = static_cast<std::size_t>(block_size_);
+  const auto bs = as_size(block_size_);
   assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs + (upper ? k_overhang : 0), 0.0);
   // An upper half begins each row with its diagonal, so that only whole rows need a table of it.
   if (!upper) {
-    diagonal_.resize(at(mesh_.n_owned_nodes));
-    for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
+    diagonal_.resize(as_size(mesh_.n_owned_nodes));
+    for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[as_size(row)] = slot(row, row);
   }
   order_ghost_columns();
   // The lists of fixed entries belong to the old pattern.
@@ -127,18 +124,18 @@ multigrid::MatrixView BlockMatrix::view() const {
 
 /// PETSc keeps the columns of a row in global order, owned ones and ghosts apart; ours are in local order.
 void BlockMatrix::order_ghost_columns() {
-  const auto global = [&](Slot s) { return mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])]; };
+  const auto global = [&](Slot s) { return mesh_.global_node[as_size(columns_[as_size(s)])]; };
   ghost_start_.clear();
   ghost_slots_.clear();
   // With one process there are no ghosts.
   if (mesh_.n_nodes() == mesh_.n_owned_nodes) return;
-  ghost_start_.reserve(at(mesh_.n_owned_nodes) + 1);
+  ghost_start_.reserve(as_size(mesh_.n_owned_nodes) + 1);
   ghost_start_.push_back(0);
   // Each row lists the slots of its ghost columns, sorted as PETSc has them.
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     const auto begin = ghost_slots_.size();
-    for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
-      if (columns_[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes) ghost_slots_.push_back(s);
+    for (Slot s = row_start_[as_size(row)]; s < row_start_[as_size(row) + 1]; ++s)
+      if (columns_[as_size(s)] >= mesh_.n_owned_nodes) ghost_slots_.push_back(s);
     std::sort(ghost_slots_.begin() + static_cast<std::ptrdiff_t>(begin), ghost_slots_.end(),
               [&](Slot p, Slot q) { return global(p) < global(q); });
     ghost_start_.push_back(static_cast<std::int64_t>(ghost_slots_.size()));
@@ -152,13 +149,13 @@ void BlockMatrix::create_petsc_matrix() {
   // Rows of scalar unknowns, each with the sorted columns of its blocks, in PETSc's format of
   // compressed rows.
   std::vector<PetscInt> i(1, 0), j, columns;
-  i.reserve(at(mesh_.n_owned_nodes) * static_cast<std::size_t>(block_size_) + 1);
+  i.reserve(as_size(mesh_.n_owned_nodes) * as_size(block_size_) + 1);
   j.reserve(values_.size() * (storage_ == Storage::upper ? 2 : 1));
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     columns.clear();
     view().each(row, [&](Index column, Slot, bool) {
       for (int b = 0; b < block_size_; ++b)
-        columns.push_back(static_cast<PetscInt>(mesh_.global_node[at(column)] * block_size_ + b));
+        columns.push_back(static_cast<PetscInt>(mesh_.global_node[as_size(column)] * block_size_ + b));
     });
     std::sort(columns.begin(), columns.end());
     for (int a = 0; a < block_size_; ++a) {
@@ -187,18 +184,20 @@ BlockMatrix::~BlockMatrix() = default;
 BlockMatrix::Slot BlockMatrix::slot(Index row, Index column) const {
   if (row >= mesh_.n_owned_nodes) return k_no_slot;
   if (storage_ == Storage::upper && column < row) return k_no_slot;
-  const auto begin = columns_.begin() + row_start_[at(row)], end = columns_.begin() + row_start_[at(row) + 1];
+  const auto begin = columns_.begin() + row_start_[as_size(row)],
+             end = columns_.begin() + row_start_[as_size(row) + 1];
   const auto found = std::lower_bound(begin, end, column);
-  if (!left_out_.empty() && (left_out_[at(row)] || left_out_[at(column)]) && row != column) return k_no_slot;
+  if (!left_out_.empty() && (left_out_[as_size(row)] || left_out_[as_size(column)]) && row != column)
+    return k_no_slot;
   assert(found != end && *found == column && "this pair of nodes was not announced to the graph");
   return found - columns_.begin();
 }
 
 std::vector<BlockMatrix::Slot> BlockMatrix::clique_slots(std::span<const Index> nodes, int n) const {
   std::vector<Slot> slots;
-  slots.reserve(nodes.size() * static_cast<std::size_t>(n));
-  for (std::size_t start = 0; start < nodes.size(); start += static_cast<std::size_t>(n)) {
-    const auto clique = nodes.subspan(start, static_cast<std::size_t>(n));
+  slots.reserve(nodes.size() * as_size(n));
+  for (std::size_t start = 0; start < nodes.size(); start += as_size(n)) {
+    const auto clique = nodes.subspan(start, as_size(n));
     for (Index a : clique)
       for (Index b : clique) slots.push_back(slot(a, b));
   }
@@ -210,23 +209,23 @@ void BlockMatrix::set_zero() {
 }
 
 void BlockMatrix::set_fixed(std::vector<char> fixed) {
-  assert(fixed.size() == at(mesh_.n_nodes()) * static_cast<std::size_t>(block_size_));
+  assert(fixed.size() == as_size(mesh_.n_nodes()) * as_size(block_size_));
   // The entries of fixed rows and columns are listed once, so that masking them costs nothing else later.
   // Those on the diagonal are listed apart, since they become one (or the mean of the diagonal).
   fixed_ = std::move(fixed);
   masked_.clear();
   fixed_diagonal_.clear();
-  const auto bs = static_cast<std::size_t>(block_size_);
+  const auto bs = as_size(block_size_);
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
-    for (std::int64_t s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s) {
-      const std::size_t column = at(columns_[static_cast<std::size_t>(s)]);
-      const std::size_t first = static_cast<std::size_t>(s + 1) * bs * bs;
+    for (std::int64_t s = row_start_[as_size(row)]; s < row_start_[as_size(row) + 1]; ++s) {
+      const std::size_t column = as_size(columns_[as_size(s)]);
+      const std::size_t first = as_size(s + 1) * bs * bs;
       for (std::size_t a = 0; a < bs; ++a)
         for (std::size_t b = 0; b < bs; ++b) {
-          const bool row_fixed = fixed_[at(row) * bs + a] != 0;
+          const bool row_fixed = fixed_[as_size(row) * bs + a] != 0;
           if (!row_fixed && !fixed_[column * bs + b]) continue;
           masked_.push_back(first + a * bs + b);
-          if (column == at(row) && a == b) fixed_diagonal_.push_back(first + a * bs + b);
+          if (column == as_size(row) && a == b) fixed_diagonal_.push_back(first + a * bs + b);
         }
     }
   saved_.resize(masked_.size());
@@ -277,13 +276,13 @@ void BlockMatrix::unmask() {
 }
 
 double BlockMatrix::mean_diagonal() const {
-  const auto bs = static_cast<std::size_t>(block_size_);
+  const auto bs = as_size(block_size_);
   double sums[2] = {0, 0};
-  const auto n_rows = at(mesh_.n_owned_nodes);
+  const auto n_rows = as_size(mesh_.n_owned_nodes);
   for (std::size_t row = 0; row < n_rows; ++row)
     for (std::size_t a = 0; a < bs; ++a) {
       if (fixed_[row * bs + a]) continue;
-      sums[0] += block(diagonal_slot(static_cast<Index>(row)))[a * bs + a];
+      sums[0] += block(diagonal_slot(as_index(row)))[a * bs + a];
       sums[1] += 1;
     }
   processes::sum(sums);
@@ -301,16 +300,16 @@ void BlockMatrix::constrain(std::vector<std::vector<Index>> groups) {
 void BlockMatrix::create_tied_matrix() {
   // Each entry of a block goes to the row and column of its unknown, which several members of a group share;
   // PETSc adds what comes to one place.
-  const auto bs = static_cast<std::size_t>(block_size_);
+  const auto bs = as_size(block_size_);
   values_.resize((columns_.size() + 1) * bs * bs + constraints_.followers().size(), 0.0);
   std::vector<PetscInt> rows, columns;
   rows.reserve(values_.size());
   columns.reserve(values_.size());
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
-    for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
+    for (Slot s = row_start_[as_size(row)]; s < row_start_[as_size(row) + 1]; ++s)
       for (int a = 0; a < block_size_; ++a)
         for (int b = 0; b < block_size_; ++b) {
-          const Index column = columns_[static_cast<std::size_t>(s)] * block_size_ + b;
+          const Index column = columns_[as_size(s)] * block_size_ + b;
           rows.push_back(static_cast<PetscInt>(constraints_.unknown(row * block_size_ + a)));
           columns.push_back(static_cast<PetscInt>(constraints_.unknown(column)));
         }
@@ -353,8 +352,8 @@ void BlockMatrix::copy_to_petsc() {
           for (int q = 0; q < bs; ++q) *to++ = from[q * bs + p];
       });
       if (ghost_start_.empty()) continue;
-      for (std::int64_t g = ghost_start_[at(row)]; g < ghost_start_[at(row) + 1]; ++g)
-        to_ghosts = std::copy_n(block(ghost_slots_[static_cast<std::size_t>(g)]) + p * bs, bs, to_ghosts);
+      for (std::int64_t g = ghost_start_[as_size(row)]; g < ghost_start_[as_size(row) + 1]; ++g)
+        to_ghosts = std::copy_n(block(ghost_slots_[as_size(g)]) + p * bs, bs, to_ghosts);
     }
 
   petsc::check(MatSeqAIJRestoreArrayWrite(diagonal, &owned), "MatSeqAIJRestoreArrayWrite");
@@ -372,13 +371,13 @@ void multiply_rows(std::span<const std::int64_t> row_start, std::span<const Inde
                    const double* blocks, const double* x, double* y, int any_size = size) {
   const int bs = size > 0 ? size : any_size;
   for (std::size_t row = 0; row + 1 < row_start.size(); ++row) {
-    double* const to = y + row * static_cast<std::size_t>(bs);
+    double* const to = y + row * as_size(bs);
     // Sums of a row stay in registers where the size is known to the compiler.
     double sum[size > 0 ? size : 1] = {};
     if constexpr (size == 0) std::fill_n(to, bs, 0.0);
     for (std::int64_t s = row_start[row]; s < row_start[row + 1]; ++s) {
       const double* const a = blocks + s * bs * bs;
-      const double* const from = x + static_cast<std::ptrdiff_t>(columns[static_cast<std::size_t>(s)]) * bs;
+      const double* const from = x + static_cast<std::ptrdiff_t>(columns[as_size(s)]) * bs;
       for (int p = 0; p < bs; ++p)
         for (int q = 0; q < bs; ++q) (size > 0 ? sum : to)[p] += a[p * bs + q] * from[q];
     }

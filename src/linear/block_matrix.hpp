@@ -15,6 +15,7 @@
 
 #include "linear/multi_point_constraints.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/petsc_types.hpp"
 
 namespace solidus::multigrid {
@@ -110,7 +111,7 @@ class BlockMatrix {
  private:
   /// A row of half a matrix begins with its diagonal.
   Slot diagonal_slot(Index owned_node) const {
-    const auto row = static_cast<std::size_t>(owned_node);
+    const auto row = as_size(owned_node);
     return storage_ == Storage::upper ? row_start_[row] : diagonal_[row];
   }
   void order_ghost_columns();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::linear {
 
 namespace {
@@ -12,7 +14,7 @@ multigrid::NearNullSpace on_rows(const multigrid::NearNullSpace& whole, std::spa
                                  int size) {
   const auto of_row = static_cast<std::ptrdiff_t>(size) * whole.modes;
   multigrid::NearNullSpace result{whole.modes, {}};
-  result.values.reserve(rows.size() * static_cast<std::size_t>(of_row));
+  result.values.reserve(rows.size() * as_size(of_row));
   for (const Index row : rows) {
     const auto from = whole.values.begin() + row * of_row;
     result.values.insert(result.values.end(), from, from + of_row);
@@ -36,8 +38,8 @@ void BlockMultigrid::set_up(BlockMatrix& a) {
     const int size = a.block_size();
     multigrid::Numbering numbering{mesh_.n_owned_nodes, mesh_.first_owned, {}};
     numbering.ghosts.assign(mesh_.global_node.begin() + mesh_.n_owned_nodes, mesh_.global_node.end());
-    const std::span<const char> fixed = std::span(a.fixed()).first(
-        static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(size));
+    const std::span<const char> fixed =
+        std::span(a.fixed()).first(as_size(mesh_.n_owned_nodes) * as_size(size));
     // Where the matrix keeps its upper half alone, the mirror images of its blocks are found by an index.
     const bool upper = a.storage() == BlockMatrix::Storage::upper;
     std::optional<multigrid::LowerPart> lower;
@@ -64,7 +66,7 @@ void BlockMultigrid::set_up(BlockMatrix& a) {
                       compact_->fixed, std::move(modes));
     compact_->value = {};
     compact_->fixed = {};
-    right_.resize(compact_->rows.size() * static_cast<std::size_t>(size));
+    right_.resize(compact_->rows.size() * as_size(size));
     solution_.resize(right_.size());
   });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linear/interruption.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::linear {
 
@@ -25,7 +26,7 @@ ConjugateGradients::ConjugateGradients(const mesh::Mesh& mesh, const BlockMatrix
     : a_(a),
       factors_(factors),
       ghosts_(mesh),
-      residual_(static_cast<std::size_t>(mesh.n_owned_nodes)),
+      residual_(as_size(mesh.n_owned_nodes)),
       product_(residual_.size()),
       direction_(mesh.x.size()) {}
 

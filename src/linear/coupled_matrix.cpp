@@ -8,15 +8,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/petsc_handles.hpp"
 
 namespace solidus::linear {
 
-namespace {
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-}  // namespace
+namespace {}  // namespace
 
 struct CoupledMatrix::Petsc {
   petsc::MatHandle force, heat, nest;
@@ -43,9 +40,9 @@ void CoupledMatrix::create_rectangles() {
   petsc_->nest.reset();
   petsc_->force.reset();
   petsc_->heat.reset();
-  force_.assign((displacement_.columns().size() + 1) * at(components() * fields()), 0.0);
+  force_.assign((displacement_.columns().size() + 1) * as_size(components() * fields()), 0.0);
   heat_.assign(force_.size(), 0.0);
-  volume_.assign((displacement_.columns().size() + 1) * at(pressures() * fields()), 0.0);
+  volume_.assign((displacement_.columns().size() + 1) * as_size(pressures() * fields()), 0.0);
   heat_of_pressure_.assign(volume_.size(), 0.0);
 }
 
@@ -57,23 +54,24 @@ void CoupledMatrix::create_petsc_rectangles() {
   // A prescribed displacement has no number; one that is tied has the number of its leader.
   const auto displacement_number = [&](Index node, int i) -> PetscInt {
     const std::int64_t entry = std::int64_t{node} * n_components + i;
-    if (fixed_u[at(entry)]) return -1;
+    if (fixed_u[as_size(entry)]) return -1;
     const MultiPointConstraints& constraints = displacement_.constraints();
-    return static_cast<PetscInt>(constraints.empty() ? mesh_.global_node[at(node)] * n_components + i
-                                                     : constraints.unknown(static_cast<Index>(entry)));
+    return static_cast<PetscInt>(constraints.empty() ? mesh_.global_node[as_size(node)] * n_components + i
+                                                     : constraints.unknown(as_index(entry)));
   };
   // Temperatures are tied to nothing.
   const auto temperature_number = [&](Index node, int field) -> PetscInt {
-    return fixed_t[at(std::int64_t{node} * n_fields + field)]
+    return fixed_t[as_size(std::int64_t{node} * n_fields + field)]
                ? -1
-               : static_cast<PetscInt>(mesh_.global_node[at(node)] * n_fields + field);
+               : static_cast<PetscInt>(mesh_.global_node[as_size(node)] * n_fields + field);
   };
   // Rows and columns of both rectangles, in the order in which their values are stored.
   std::vector<PetscInt> force_rows, force_columns, heat_rows, heat_columns;
   for (auto* list : {&force_rows, &force_columns, &heat_rows, &heat_columns}) list->reserve(force_.size());
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
-    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
-      const Index column = displacement_.columns()[at(s)];
+    for (Slot s = displacement_.row_start()[as_size(row)]; s < displacement_.row_start()[as_size(row) + 1];
+         ++s) {
+      const Index column = displacement_.columns()[as_size(s)];
       for (int i = 0; i < n_components; ++i)
         for (int t = 0; t < n_fields; ++t) {
           force_rows.push_back(displacement_number(row, i));
@@ -121,7 +119,7 @@ void multiply_rectangles_of(const BlockMatrix& graph, const double* blocks, int 
   const std::span<const std::int64_t> start = graph.row_start();
   const Index* const column = graph.columns().data();
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
-    double* const to = y + row * at(m);
+    double* const to = y + row * as_size(m);
     double sum[rows > 0 ? rows : 1] = {};
     if constexpr (rows == 0) std::fill_n(to, m, 0.0);
     const double* a = blocks + (start[row] + 1) * m * n;

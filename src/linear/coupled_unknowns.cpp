@@ -7,15 +7,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::linear {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// From numbers of each process to the sums of those before it.
 std::vector<std::int64_t> sums_before(const std::vector<std::int64_t>& counts) {
@@ -34,8 +31,8 @@ void each_entry(const mesh::Mesh& mesh, CoupledMatrix& matrix, const CoupledUnkn
                     [&](PetscInt i, PetscInt j, double value) { f(i, j, value, false); });
   const BlockMatrix &u = matrix.displacement(), &t = matrix.temperature();
   for (Index row = 0; row < mesh.n_owned_nodes; ++row) {
-    for (std::int64_t s = u.row_start()[at(row)]; s < u.row_start()[at(row) + 1]; ++s) {
-      const Index column = u.columns()[at(s)];
+    for (std::int64_t s = u.row_start()[as_size(row)]; s < u.row_start()[as_size(row) + 1]; ++s) {
+      const Index column = u.columns()[as_size(s)];
       const double *const force = matrix.force_by_temperature(s), *const heat =
                                                                       matrix.heat_by_displacement(s);
       for (int i = 0; i < matrix.components(); ++i) {
@@ -50,8 +47,8 @@ void each_entry(const mesh::Mesh& mesh, CoupledMatrix& matrix, const CoupledUnkn
       }
     }
     // At last conduction and storage of the temperatures themselves.
-    for (std::int64_t s = t.row_start()[at(row)]; s < t.row_start()[at(row) + 1]; ++s)
-      f(unknowns.of_temperature(row), unknowns.of_temperature(t.columns()[at(s)]), *t.block(s), true);
+    for (std::int64_t s = t.row_start()[as_size(row)]; s < t.row_start()[as_size(row) + 1]; ++s)
+      f(unknowns.of_temperature(row), unknowns.of_temperature(t.columns()[as_size(s)]), *t.block(s), true);
   }
 }
 
@@ -60,12 +57,12 @@ void each_entry(const mesh::Mesh& mesh, CoupledMatrix& matrix, const CoupledUnkn
 CoupledUnknowns::CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix,
                                  std::span<const char> no_pressure, const parallel::GhostExchange& ghosts)
     : saddle_(mesh, *matrix.saddle(), no_pressure, ghosts),
-      n_saddle_(at(mesh.n_owned_nodes) * at(matrix.components() + matrix.pressures())) {
+      n_saddle_(as_size(mesh.n_owned_nodes) * as_size(matrix.components() + matrix.pressures())) {
   assert(matrix.fields() == 1 && matrix.temperature().constraints().empty());
   // Free temperatures of this process are counted besides the unknowns of the saddle point.
   const std::vector<char>& fixed = matrix.temperature().fixed();
   for (Index node = 0; node < mesh.n_owned_nodes; ++node)
-    if (!fixed[at(node)]) temperatures_of_process_.push_back(node);
+    if (!fixed[as_size(node)]) temperatures_of_process_.push_back(node);
   // Unknowns are numbered process by process: displacements and pressures first, temperatures behind them, so
   // that each process owns one range of rows.
   const std::vector<std::int64_t> n_saddle = processes::gather(static_cast<std::int64_t>(saddle_.size())),
@@ -76,10 +73,10 @@ CoupledUnknowns::CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix,
 
   // Ghosts get the numbers of their owners.
   const int rank = processes::rank();
-  auto number =
-      static_cast<double>(first_of_saddle_[at(rank)] + n_saddle[at(rank)] + temperatures_before_[at(rank)]);
+  auto number = static_cast<double>(first_of_saddle_[as_size(rank)] + n_saddle[as_size(rank)] +
+                                    temperatures_before_[as_size(rank)]);
   std::vector<double> numbers(mesh.x.size(), -1.0);
-  for (const Index node : temperatures_of_process_) numbers[at(node)] = number++;
+  for (const Index node : temperatures_of_process_) numbers[as_size(node)] = number++;
   ghosts.update(numbers, 1);
   temperatures_.resize(numbers.size());
   std::transform(numbers.begin(), numbers.end(), temperatures_.begin(),
@@ -90,7 +87,7 @@ CoupledUnknowns::CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix,
 PetscInt CoupledUnknowns::number(PetscInt of_saddle) const {
   if (of_saddle < 0) return -1;
   const auto after = std::upper_bound(first_of_saddle_.begin(), first_of_saddle_.end(), of_saddle);
-  const auto process = at(after - first_of_saddle_.begin()) - 1;
+  const auto process = as_size(after - first_of_saddle_.begin()) - 1;
   return static_cast<PetscInt>(of_saddle + temperatures_before_[process]);
 }
 
@@ -99,13 +96,13 @@ void CoupledUnknowns::expand(std::span<const double> unknowns, std::span<double>
   const std::span<double> temperature = whole.subspan(n_saddle_);
   std::fill(temperature.begin(), temperature.end(), 0.0);
   for (std::size_t k = 0; k < temperatures_of_process_.size(); ++k)
-    temperature[at(temperatures_of_process_[k])] = unknowns[saddle_.size() + k];
+    temperature[as_size(temperatures_of_process_[k])] = unknowns[saddle_.size() + k];
 }
 
 void CoupledUnknowns::restrict_to(std::span<const double> whole, std::span<double> unknowns) const {
   saddle_.restrict_to(whole.first(n_saddle_), unknowns.first(saddle_.size()));
   for (std::size_t k = 0; k < temperatures_of_process_.size(); ++k)
-    unknowns[saddle_.size() + k] = whole[n_saddle_ + at(temperatures_of_process_[k])];
+    unknowns[saddle_.size() + k] = whole[n_saddle_ + as_size(temperatures_of_process_[k])];
 }
 
 void CoupledCopy::create(const mesh::Mesh& mesh, CoupledMatrix& matrix, const CoupledUnknowns& unknowns) {

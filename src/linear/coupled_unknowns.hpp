@@ -7,6 +7,7 @@
 
 #include "linear/coupled_matrix.hpp"
 #include "linear/saddle_unknowns.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
 
@@ -35,7 +36,7 @@ class CoupledUnknowns {
     return number(saddle_.of_displacement(node, component));
   }
   PetscInt of_pressure(Index node, int field) const { return number(saddle_.of_pressure(node, field)); }
-  PetscInt of_temperature(Index node) const { return temperatures_[static_cast<std::size_t>(node)]; }
+  PetscInt of_temperature(Index node) const { return temperatures_[as_size(node)]; }
 
  private:
   PetscInt number(PetscInt of_saddle) const;

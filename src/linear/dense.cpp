@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::linear::dense {
 
 namespace {
@@ -92,7 +94,7 @@ OrthogonalFactors orthogonal_factors(const Columns& a) {
   const int m = length(a.rows), n = length(a.count), lda = distance(f.q.all());
   // LAPACK's block size is 32 at most for these routines.
   const int n_work = 32 * std::max(1, n);
-  std::vector<double> reflectors(a.count), work(static_cast<std::size_t>(n_work));
+  std::vector<double> reflectors(a.count), work(as_size(n_work));
   int info = 0;
   // Householder's factorisation, then its orthogonal factor explicitly.
   LAPACKgeqrf_(&m, &n, f.q.all().values, &lda, reflectors.data(), work.data(), &n_work, &info);
@@ -116,7 +118,7 @@ Eigensystem eigensystem(const Columns& a) {
   const std::size_t size = a.count;
   const int n = length(size), lda = std::max(1, n), one = 1, n_work = 34 * std::max(1, n);
   Matrix work_on = copy(a);
-  std::vector<double> real(size), imaginary(size), work(static_cast<std::size_t>(n_work));
+  std::vector<double> real(size), imaginary(size), work(as_size(n_work));
   Eigensystem result{{}, Matrix(size, size)};
   int info = 0;
   double none = 0;

@@ -5,20 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::linear {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 void append(mesh::ElementBlock& to, const mesh::ElementBlock& from, Index element) {
   const Index* nodes = from.element(element);
   to.nodes.insert(to.nodes.end(), nodes, nodes + mesh::node_count(from.shape));
-  to.input_element.push_back(from.input_element[at(element)]);
+  to.input_element.push_back(from.input_element[as_size(element)]);
   if (element < from.n_counted) ++to.n_counted;
 }
 
@@ -122,8 +119,8 @@ void GrowingMesh::find_faces() {
 }
 
 bool GrowingMesh::born(const Side& side) const {
-  const Births& of_block = births_[static_cast<std::size_t>(side.block)];
-  return of_block.empty() || of_block[at(side.element)] <= time_;
+  const Births& of_block = births_[as_size(side.block)];
+  return of_block.empty() || of_block[as_size(side.element)] <= time_;
 }
 
 int GrowingMesh::present_sides(const Face& face) const {
@@ -155,7 +152,7 @@ void GrowingMesh::fill_blocks() {
     to.input_element.clear();
     to.n_counted = 0;
     for (Index e = 0; e < from.size(); ++e)
-      if (births_[b][at(e)] <= time_) append(to, from, e);
+      if (births_[b][as_size(e)] <= time_) append(to, from, e);
   }
 }
 
@@ -184,16 +181,16 @@ void GrowingMesh::add_bare_faces() {
       const Face& face = faces_.at(key);
       if (face.named || face.sides.size() != 2 || present_sides(face) != 1) continue;
       const Side& side = born(face.sides[0]) ? face.sides[0] : face.sides[1];
-      const Side& growing =
-          births_[static_cast<std::size_t>(face.sides[0].block)].empty() ? face.sides[1] : face.sides[0];
-      const std::string& joins = bare_[at(whole_.blocks[static_cast<std::size_t>(growing.block)].body)];
+      const Side& growing = births_[as_size(face.sides[0].block)].empty() ? face.sides[1] : face.sides[0];
+      const std::string& joins = bare_[as_size(whole_.blocks[as_size(growing.block)].body)];
       if (joins.empty()) continue;
-      const mesh::ElementBlock& block = whole_.blocks[static_cast<std::size_t>(side.block)];
+      const mesh::ElementBlock& block = whole_.blocks[as_size(side.block)];
       const std::vector<Index> nodes = nodes_of_face(block, side.element, side.face);
       GlobalIndex lowest = std::numeric_limits<GlobalIndex>::max();
       Index first = 0;
       for (const Index node : nodes)
-        if (whole_.global_node[at(node)] < lowest) lowest = whole_.global_node[at(node)], first = node;
+        if (whole_.global_node[as_size(node)] < lowest)
+          lowest = whole_.global_node[as_size(node)], first = node;
       if ((first < whole_.n_owned_nodes) != counted) continue;
       // Blocks of bare faces follow those of the surface itself, one for each shape and body.
       std::vector<mesh::ElementBlock>& blocks = present_.surfaces.at(joins).faces;
@@ -209,7 +206,7 @@ void GrowingMesh::add_bare_faces() {
         to->body = block.body;
       }
       to->nodes.insert(to->nodes.end(), nodes.begin(), nodes.end());
-      to->input_element.push_back(block.input_element[at(side.element)]);
+      to->input_element.push_back(block.input_element[as_size(side.element)]);
       if (counted) ++to->n_counted;
     }
 }

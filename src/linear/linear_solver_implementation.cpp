@@ -6,6 +6,7 @@
 
 #include "linear/automatic_solver.hpp"
 #include "linear/interruption.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/petsc_options.hpp"
 #include "system/free_memory.hpp"
 #include "system/processes.hpp"
@@ -70,8 +71,7 @@ petsc::NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int compon
   double* values = nullptr;
   petsc::check(VecGetArray(coordinates, &values), "VecGetArray");
   for (Index node = 0; node < mesh.n_owned_nodes; ++node)
-    for (int i = 0; i < components; ++i)
-      values[node * components + i] = mesh.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)];
+    for (int i = 0; i < components; ++i) values[node * components + i] = mesh.x[as_size(node)][as_size(i)];
   petsc::check(VecRestoreArray(coordinates, &values), "VecRestoreArray");
   petsc::NullSpaceHandle modes;
   petsc::check(MatNullSpaceCreateRigidBody(coordinates, modes.out()), "MatNullSpaceCreateRigidBody");
@@ -137,7 +137,7 @@ void LinearSolver::Implementation::create_shell(BlockMatrix& a) {
   blocks = &a;
   if (!ghosts) ghosts.emplace(mesh);
   const auto n = static_cast<PetscInt>(mesh.n_owned_nodes * a.block_size());
-  local.resize(static_cast<std::size_t>(mesh.n_nodes() * a.block_size()));
+  local.resize(as_size(mesh.n_nodes() * a.block_size()));
   petsc::check(MatCreateShell(PETSC_COMM_WORLD, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, shell.out()),
                "MatCreateShell");
   petsc::check(MatSetBlockSize(shell, a.block_size()), "MatSetBlockSize");

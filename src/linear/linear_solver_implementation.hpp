@@ -14,6 +14,7 @@
 #include "linear/factorisation.hpp"
 #include "linear/incomplete_cholesky.hpp"
 #include "linear/linear_solver.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
 
@@ -36,7 +37,7 @@ class ReadArray {
   ~ReadArray() { VecRestoreArrayRead(vector_, &values_); }
   ReadArray(const ReadArray&) = delete;
   ReadArray& operator=(const ReadArray&) = delete;
-  std::span<const double> values() const { return {values_, static_cast<std::size_t>(n_)}; }
+  std::span<const double> values() const { return {values_, as_size(n_)}; }
 
  private:
   Vec vector_;
@@ -53,7 +54,7 @@ class WriteArray {
   ~WriteArray() { VecRestoreArrayWrite(vector_, &values_); }
   WriteArray(const WriteArray&) = delete;
   WriteArray& operator=(const WriteArray&) = delete;
-  std::span<double> values() const { return {values_, static_cast<std::size_t>(n_)}; }
+  std::span<double> values() const { return {values_, as_size(n_)}; }
 
  private:
   Vec vector_;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::linear {
@@ -15,10 +16,10 @@ MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_s
   // Members of a group are one unknown, that of their leader: the member with the lowest global number over
   // all processes.
   const auto global = [&](Index entry) {
-    return mesh.global_node[static_cast<std::size_t>(entry / block_size)] * block_size + entry % block_size;
+    return mesh.global_node[as_size(entry / block_size)] * block_size + entry % block_size;
   };
-  unknown_.resize(mesh.x.size() * static_cast<std::size_t>(block_size));
-  for (std::size_t i = 0; i < unknown_.size(); ++i) unknown_[i] = global(static_cast<Index>(i));
+  unknown_.resize(mesh.x.size() * as_size(block_size));
+  for (std::size_t i = 0; i < unknown_.size(); ++i) unknown_[i] = global(as_index(i));
 
   // A process may hold a part of a group only, so the leader is found by a minimum over them.
   std::vector<GlobalIndex> leaders(groups.size(), std::numeric_limits<GlobalIndex>::max());
@@ -32,8 +33,8 @@ MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_s
   groups_.resize(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Index entry : groups[g]) {
-      assert(unknown_[static_cast<std::size_t>(entry)] == global(entry) && "a member of two groups");
-      unknown_[static_cast<std::size_t>(entry)] = leaders[g];
+      assert(unknown_[as_size(entry)] == global(entry) && "a member of two groups");
+      unknown_[as_size(entry)] = leaders[g];
       if (entry >= n_owned) continue;
       groups_[g].members.push_back(entry);
       if (global(entry) == leaders[g])
@@ -49,22 +50,22 @@ void MultiPointConstraints::sum(std::span<double> r) const {
   // The forces of all members of a group act on one unknown; sums go over the processes.
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const Index entry : groups_[g].members) {
-      sums[g] += r[static_cast<std::size_t>(entry)];
-      r[static_cast<std::size_t>(entry)] = 0;
+      sums[g] += r[as_size(entry)];
+      r[as_size(entry)] = 0;
     }
   processes::sum(sums);
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    if (groups_[g].leader >= 0) r[static_cast<std::size_t>(groups_[g].leader)] = sums[g];
+    if (groups_[g].leader >= 0) r[as_size(groups_[g].leader)] = sums[g];
 }
 
 void MultiPointConstraints::share(std::span<double> x) const {
   if (empty()) return;
   std::vector<double> values(groups_.size(), 0.0);  // one process owns the leader, the others add zero
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    if (groups_[g].leader >= 0) values[g] = x[static_cast<std::size_t>(groups_[g].leader)];
+    if (groups_[g].leader >= 0) values[g] = x[as_size(groups_[g].leader)];
   processes::sum(values);
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    for (const Index entry : groups_[g].members) x[static_cast<std::size_t>(entry)] = values[g];
+    for (const Index entry : groups_[g].members) x[as_size(entry)] = values[g];
 }
 
 }  // namespace solidus::linear

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::linear {
 
@@ -23,7 +24,7 @@ class MultiPointConstraints {
 
   bool empty() const { return groups_.empty(); }
   /// The number over all processes of the unknown that gives a local degree of freedom its value.
-  GlobalIndex unknown(Index entry) const { return unknown_[static_cast<std::size_t>(entry)]; }
+  GlobalIndex unknown(Index entry) const { return unknown_[as_size(entry)]; }
   /// Owned members that are no leaders, and so no unknowns.
   const std::vector<Index>& followers() const { return followers_; }
 

@@ -1,13 +1,15 @@
 /// Rigid-body modes from the coordinates, constants for scalar fields.
 #include "linear/near_null_space.hpp"
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::linear {
 
 using multigrid::NearNullSpace;
 
 NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components) {
-  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
-  const auto modes = static_cast<std::size_t>(rigid_body_mode_count(components));
+  const auto n = as_size(mesh.n_owned_nodes), nc = as_size(components);
+  const auto modes = as_size(rigid_body_mode_count(components));
   NearNullSpace space{static_cast<int>(modes), std::vector<double>(n * nc * modes, 0.0)};
   for (std::size_t node = 0; node < n; ++node) {
     const mesh::Point& x = mesh.x[node];
@@ -31,7 +33,7 @@ int rigid_body_mode_count(int components) {
 }
 
 NearNullSpace constants(const mesh::Mesh& mesh, int components) {
-  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
+  const auto n = as_size(mesh.n_owned_nodes), nc = as_size(components);
   NearNullSpace space{components, std::vector<double>(n * nc * nc, 0.0)};
   for (std::size_t i = 0; i < n * nc; ++i) space.values[i * nc + i % nc] = 1;
   return space;

@@ -9,6 +9,7 @@
 
 #include "linear/forcing.hpp"
 #include "linear/interruption.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::linear {
 
@@ -59,9 +60,7 @@ class Iteration {
   NewtonReport run();
 
  private:
-  std::size_t owned(int components) const {
-    return static_cast<std::size_t>(ghosts_.n_owned_nodes()) * static_cast<std::size_t>(components);
-  }
+  std::size_t owned(int components) const { return as_size(ghosts_.n_owned_nodes()) * as_size(components); }
   void evaluate();
   void constrain();
   /// The step on local nodes, ghosts included, from that on owned ones.
@@ -145,11 +144,10 @@ void Iteration::constrain() {
 
 void Iteration::spread_step() {
   std::size_t from = 0, to = 0;
-  const std::size_t n_nodes =
-      x_.size() / static_cast<std::size_t>(std::accumulate(components_.begin(), components_.end(), 0));
+  const std::size_t n_nodes = x_.size() / as_size(std::accumulate(components_.begin(), components_.end(), 0));
   // Field by field from the owned unknowns to the local ones, with ghosts.
   for (const int components : components_) {
-    const std::size_t n_owned = owned(components), n = n_nodes * static_cast<std::size_t>(components);
+    const std::size_t n_owned = owned(components), n = n_nodes * as_size(components);
     std::copy_n(work_.step.begin() + static_cast<std::ptrdiff_t>(from), n_owned,
                 work_.local_step.begin() + static_cast<std::ptrdiff_t>(to));
     ghosts_.update(std::span(work_.local_step).subspan(to, n), components);

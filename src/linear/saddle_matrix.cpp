@@ -6,6 +6,8 @@
 #include <array>
 #include <cassert>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::linear {
 
 namespace {
@@ -40,10 +42,9 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
   const std::ptrdiff_t of_u = dim, of_p = fields, size = 2 * dim * fields + fields * fields;
   const std::span<const std::int64_t> start = pattern.row_start();
   const Index* const columns = pattern.columns().data();
-  const auto n_rows = static_cast<Index>(start.size()) - 1;
+  const auto n_rows = as_index(start.size()) - 1;
   for (Index row = 0; row < n_rows; ++row) {
-    const std::int64_t first = start[static_cast<std::size_t>(row)],
-                       end = start[static_cast<std::size_t>(row) + 1];
+    const std::int64_t first = start[as_size(row)], end = start[as_size(row) + 1];
     if (first == end) continue;
     // Results of the row are summed here; its own values of u and p are read once.
     double sum_u[most_components] = {}, u_row[most_components] = {};
@@ -110,7 +111,7 @@ SaddleMatrix::SaddleMatrix(BlockMatrix& displacement, int fields)
 }
 
 bool SaddleMatrix::set_zero() {
-  const std::size_t size = (displacement_.columns().size() + 1) * static_cast<std::size_t>(border_size());
+  const std::size_t size = (displacement_.columns().size() + 1) * as_size(border_size());
   const bool other = pattern_ != displacement_.pattern();
   pattern_ = displacement_.pattern();
   border_.assign(size, 0.0);

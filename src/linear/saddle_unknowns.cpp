@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::linear {
@@ -14,10 +15,6 @@ namespace {
 
 /// Marks entries of the whole before they are numbered: unknowns, and degrees of freedom that are none.
 constexpr double k_unknown = 1, k_none = -1;
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<PetscInt> rounded(std::span<const double> numbers) {
   std::vector<PetscInt> result(numbers.size());
@@ -35,13 +32,14 @@ SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matri
       constraints_(matrix.displacement().constraints()) {
   // Each displacement and each pressure of a node gets a mark: no unknown, or an unknown. Fixed entries,
   // followers of ties and nodes without a pressure are none.
-  n_displacements_ = at(mesh.n_owned_nodes) * at(components_);
-  const std::size_t n_pressures = at(mesh.n_owned_nodes) * at(fields_);
-  std::vector<double> u(mesh.x.size() * at(components_), k_none), p(mesh.x.size() * at(fields_), k_none);
+  n_displacements_ = as_size(mesh.n_owned_nodes) * as_size(components_);
+  const std::size_t n_pressures = as_size(mesh.n_owned_nodes) * as_size(fields_);
+  std::vector<double> u(mesh.x.size() * as_size(components_), k_none),
+      p(mesh.x.size() * as_size(fields_), k_none);
   const std::vector<char>& fixed = matrix.displacement().fixed();
   for (std::size_t i = 0; i < n_displacements_; ++i)
     if (!fixed[i]) u[i] = k_unknown;
-  for (const Index follower : constraints_.followers()) u[at(follower)] = k_none;
+  for (const Index follower : constraints_.followers()) u[as_size(follower)] = k_none;
   for (std::size_t i = 0; i < n_pressures; ++i)
     if (!no_pressure[i]) p[i] = k_unknown;
 

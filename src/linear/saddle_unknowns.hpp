@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linear/saddle_matrix.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
 
@@ -32,11 +33,9 @@ class SaddleUnknowns {
 
   /// The number over all processes, −1 where there is no unknown; of a local node.
   PetscInt of_displacement(Index node, int component) const {
-    return displacements_[static_cast<std::size_t>(node * components_ + component)];
+    return displacements_[as_size(node * components_ + component)];
   }
-  PetscInt of_pressure(Index node, int field) const {
-    return pressures_[static_cast<std::size_t>(node * fields_ + field)];
-  }
+  PetscInt of_pressure(Index node, int field) const { return pressures_[as_size(node * fields_ + field)]; }
 
  private:
   int components_, fields_;
@@ -56,9 +55,8 @@ void each_saddle_entry(Index n_owned_nodes, const SaddleMatrix& matrix, const Nu
   const int dim = matrix.components(), fields = matrix.fields();
   const bool half = a.storage() == BlockMatrix::Storage::upper;
   for (Index row = 0; row < n_owned_nodes; ++row)
-    for (std::int64_t s = a.row_start()[static_cast<std::size_t>(row)];
-         s < a.row_start()[static_cast<std::size_t>(row) + 1]; ++s) {
-      const Index column = a.columns()[static_cast<std::size_t>(s)];
+    for (std::int64_t s = a.row_start()[as_size(row)]; s < a.row_start()[as_size(row) + 1]; ++s) {
+      const Index column = a.columns()[as_size(s)];
       const bool mirrored = half && column != row && column < n_owned_nodes;
       const auto entry = [&](PetscInt i, PetscInt j, double value) {
         f(i, j, value);

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::linear {
 
 namespace {
@@ -21,9 +23,8 @@ Matrix pattern_of(const BlockMatrix& a) {
   // that the factors have to know both.
   std::vector<Eigen::Triplet<double, int>> entries;
   for (int row = 0; row < n; ++row)
-    for (std::int64_t s = start[static_cast<std::size_t>(row)]; s < start[static_cast<std::size_t>(row) + 1];
-         ++s) {
-      const auto column = static_cast<int>(columns[static_cast<std::size_t>(s)]);
+    for (std::int64_t s = start[as_size(row)]; s < start[as_size(row) + 1]; ++s) {
+      const auto column = static_cast<int>(columns[as_size(s)]);
       entries.emplace_back(row, column, 0.0);
       entries.emplace_back(column, row, 0.0);
     }
@@ -62,11 +63,11 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
   }
   // Values are written again; rows and columns that are held keep nothing but a one on the diagonal.
   std::fill_n(m.matrix.valuePtr(), m.matrix.nonZeros(), 0.0);
-  const auto n = static_cast<Index>(start.size()) - 1;
-  assert(held.size() == static_cast<std::size_t>(n));
+  const auto n = as_index(start.size()) - 1;
+  assert(held.size() == as_size(n));
   // A row that is held is cut off in both directions, so that its unknown stays zero and changes nothing
   // elsewhere.
-  const auto free = [&](Index node) { return held[static_cast<std::size_t>(node)] == 0; };
+  const auto free = [&](Index node) { return held[as_size(node)] == 0; };
   const auto add = [&](Index row, Index column, double value) {
     if (free(row) && free(column))
       m.matrix.coeffRef(static_cast<int>(row), static_cast<int>(column)) += value;
@@ -77,9 +78,8 @@ bool SparseFactors::factorise(const BlockMatrix& a, std::span<const Entry> furth
   // is moved in memory.
   for (Index row = 0; row < n; ++row) {
     if (!free(row)) m.matrix.coeffRef(static_cast<int>(row), static_cast<int>(row)) = 1;
-    for (std::int64_t s = start[static_cast<std::size_t>(row)]; s < start[static_cast<std::size_t>(row) + 1];
-         ++s) {
-      const Index column = columns[static_cast<std::size_t>(s)];
+    for (std::int64_t s = start[as_size(row)]; s < start[as_size(row) + 1]; ++s) {
+      const Index column = columns[as_size(s)];
       add(row, column, values[s]);
       if (half && column != row) add(column, row, values[s]);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::linear {
@@ -22,7 +23,7 @@ float trace(BlockMatrix& a, Index node) {
 
 void StiffnessGrowth::remember(BlockMatrix& a) {
   trace_.resize(a.row_start().size() - 1);
-  for (std::size_t node = 0; node < trace_.size(); ++node) trace_[node] = trace(a, static_cast<Index>(node));
+  for (std::size_t node = 0; node < trace_.size(); ++node) trace_[node] = trace(a, as_index(node));
 }
 
 double StiffnessGrowth::since(BlockMatrix& a) const {
@@ -32,7 +33,7 @@ double StiffnessGrowth::since(BlockMatrix& a) const {
   } else {
     // By the traces of the diagonal blocks: where a node has become stiffer.
     for (std::size_t node = 0; node < trace_.size(); ++node) {
-      const float now = trace(a, static_cast<Index>(node));
+      const float now = trace(a, as_index(node));
       if (trace_[node] > 0 && now > 0) growth = std::max(growth, static_cast<double>(now / trace_[node]));
     }
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::material {
 namespace {
 
@@ -33,7 +35,7 @@ Table continued(const Table& c) {
 
 std::size_t last_not_above(const std::vector<double>& starts, double x) {
   const auto next = std::upper_bound(starts.begin(), starts.end(), x);
-  return next == starts.begin() ? 0 : static_cast<std::size_t>(next - starts.begin()) - 1;
+  return next == starts.begin() ? 0 : as_size(next - starts.begin()) - 1;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <type_traits>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 
 namespace solidus::material {
@@ -21,13 +22,12 @@ inline constexpr int k_points = std::is_same_v<T, Lane> ? k_lanes : 1;
 template <class T>
 double at(const T& value, int lane) {
   double number;
-  std::memcpy(&number, reinterpret_cast<const char*>(&value) + sizeof number * static_cast<std::size_t>(lane),
-              sizeof number);
+  std::memcpy(&number, reinterpret_cast<const char*>(&value) + sizeof number * as_size(lane), sizeof number);
   return number;
 }
 template <class T>
 void set(T& value, int lane, double to) {
-  std::memcpy(reinterpret_cast<char*>(&value) + sizeof to * static_cast<std::size_t>(lane), &to, sizeof to);
+  std::memcpy(reinterpret_cast<char*>(&value) + sizeof to * as_size(lane), &to, sizeof to);
 }
 bool holds(bool mask, int) {
   return mask;
@@ -43,12 +43,12 @@ Sym<T> tensor_at(const T* numbers, std::size_t place) {
 }
 template <class T>
 void put(const Sym<T>& tensor, T* numbers, std::size_t place) {
-  for (int i = 0; i < 6; ++i) numbers[place + static_cast<std::size_t>(i)] = tensor[i];
+  for (int i = 0; i < 6; ++i) numbers[place + as_size(i)] = tensor[i];
 }
 template <class T>
 Sym<double> tensor_of(const T* numbers, std::size_t place, int lane) {
   Sym<double> tensor;
-  for (int i = 0; i < 6; ++i) tensor[i] = at(numbers[place + static_cast<std::size_t>(i)], lane);
+  for (int i = 0; i < 6; ++i) tensor[i] = at(numbers[place + as_size(i)], lane);
   return tensor;
 }
 

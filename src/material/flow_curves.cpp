@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::material {
 namespace {
 
@@ -35,7 +37,7 @@ void check_curve(const double* stresses, std::size_t count) {
 /// The curve at a strain: linear between its points, level beyond the last one.
 double stress_of(const FlowCurve& curve, double strain) {
   const auto right = std::upper_bound(curve.strains.begin(), curve.strains.end(), strain);
-  const auto i = static_cast<std::size_t>(right - curve.strains.begin());
+  const auto i = as_size(right - curve.strains.begin());
   if (i == curve.strains.size()) return curve.stresses.back();
   const double t = (strain - curve.strains[i - 1]) / (curve.strains[i] - curve.strains[i - 1]);
   return curve.stresses[i - 1] + t * (curve.stresses[i] - curve.stresses[i - 1]);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "material/material.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::material {
@@ -170,7 +171,7 @@ bool Granular::integrate(ExternalCall& call) const {
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j < 6; ++j) {
       const int row = k_component[i];
-      const auto column = static_cast<std::size_t>(k_component[j]);
+      const auto column = as_size(k_component[j]);
       call.tangent[6 * i + j] =
           bonded * way * returned.tangent[row][column] + (bonded * (1 - way) + grains) * elastic[row][column];
     }

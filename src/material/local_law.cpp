@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::material {
 
 const std::vector<double>& LocalLaw::measure() const {
@@ -17,7 +19,7 @@ std::optional<double> LocalLaw::value(std::span<const double> values, double at)
   if (values.size() != x.size() || !(at >= x.front()) || at > x.back()) return {};
   // The piece that holds the place, and the straight line in logarithms over it.
   const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, at);
-  const auto i = static_cast<std::size_t>(above - x.begin());
+  const auto i = as_size(above - x.begin());
   const double share = std::log(at / x[i - 1]) / std::log(x[i] / x[i - 1]);
   return values[i - 1] * std::pow(values[i] / values[i - 1], share);
 }

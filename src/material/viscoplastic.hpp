@@ -26,6 +26,7 @@
 
 #include "material/flow_properties.hpp"
 #include "material/viscoelastic.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::material {
@@ -170,7 +171,7 @@ template <class T>
 Sym4<T> full_tangent(const Viscoplastic::Response<T>& r) {
   Sym4<T> c = Sym4<T>::isotropic(r.bulk, r.twice_shear);
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) c[i][static_cast<std::size_t>(j)] += r.left[i] * r.right[j];
+    for (int j = 0; j < 6; ++j) c[i][as_size(j)] += r.left[i] * r.right[j];
   return c;
 }
 

@@ -8,6 +8,7 @@
 #include "material/laws/perzyna.hpp"
 #include "material/viscoplastic.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/tensor.hpp"
 #include "system/processes.hpp"
 
@@ -61,8 +62,8 @@ CreepError::CreepError(const MechanicalPhase& phase) : phase_(phase) {
     b.first = material.solidification() != nullptr ? k_stress_components : 0;  // behind ε^v (law_parts.cpp)
     const PackVector<Lane> nodal = mesh::nodal_weights(mesh, block, phase.bodies().kind);
     // Nodal weights of an element sum to its volume.
-    const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
-    for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_counted); ++e) {
+    const auto n_nodes = as_size(mesh::node_count(block.shape));
+    for (std::size_t e = 0; e < as_size(block.n_counted); ++e) {
       double volume = 0;
       for (std::size_t a = 0; a < n_nodes; ++a)
         volume += nodal[e / k_lanes * n_nodes + a][static_cast<int>(e % k_lanes)];
@@ -78,7 +79,7 @@ CreepField CreepError::flow(const MechanicalState& from, const MechanicalState& 
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (!blocks_[b].creeps || b >= to.history.size() || b >= from.history.size()) continue;
     const BlockHistory &old = from.history[b], &now = to.history[b];
-    const auto width = static_cast<std::size_t>(now.n_components);
+    const auto width = as_size(now.n_components);
     if (old.values.size() != now.values.size()) continue;
     const std::size_t n = width > 0 ? now.values.size() / width : 0;  // none where a process has no element
     field[b] = {static_cast<int>(k_stress_components), now.n_points, {}};
@@ -118,19 +119,19 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
     // Blocks without flow, or whose stress is not stored, have nothing to compare.
     if (b >= error.size() || error[b].values.empty()) continue;
     if (b >= now.elements.size() || !now.elements[b]) continue;
-    std::vector<double> stress(static_cast<std::size_t>(block.size()) * k_stress_components);
+    std::vector<double> stress(as_size(block.size()) * k_stress_components);
     now.elements[b]->get(ElementField::stress, stress);
     const material::Material& material = phase_.bodies().material(block.body);
     const material::Viscoplastic law(material);
-    const auto n_points = static_cast<std::size_t>(error[b].n_points);
-    const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto n_points = as_size(error[b].n_points);
+    const auto n_nodes = as_size(mesh::node_count(block.shape));
     for (std::size_t e = 0; e < blocks_[b].volume.size(); ++e) {
       // Properties are those of the element's mean temperature. What is not wholly solid is left out: its
       // stress follows the flow at once.
       double theta = 0;
-      const Index* nodes = block.element(static_cast<Index>(e));
+      const Index* nodes = block.element(as_index(e));
       for (std::size_t a = 0; a < n_nodes; ++a)
-        theta += temperature[static_cast<std::size_t>(nodes[a])] / static_cast<double>(n_nodes);
+        theta += temperature[as_size(nodes[a])] / static_cast<double>(n_nodes);
       const auto p = law.properties_at<double>(theta, theta);
       if (p.elastic.solid_fraction < 1) continue;
       const double two_g = 2 * p.elastic.shear, volume = blocks_[b].volume[e];
@@ -147,7 +148,7 @@ double CreepError::of_stress(const CreepField& error, const CreepField& rate, co
                             share_left(*material.flow, p, largest_rate(rate[b], before, b, at, lane), dt);
         square += left * left / static_cast<double>(n_points);
       }
-      const auto body = 2 * static_cast<std::size_t>(block.body);
+      const auto body = 2 * as_size(block.body);
       sums[body] += volume * square;
       sums[body + 1] += volume * (dot(deviator, deviator) + least * least);
     }

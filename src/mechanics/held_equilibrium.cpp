@@ -9,6 +9,7 @@
 
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
@@ -41,13 +42,13 @@ class HeldEquilibrium final : public linear::NonlinearSystem {
 
 linear::BlockMatrix& HeldEquilibrium::tangent(std::span<const double> x) {
   linear::BlockMatrix& matrix = phase_.equations().tangent(x);
-  const auto n = static_cast<std::size_t>(matrix.block_size());
-  const auto n_owned = static_cast<std::size_t>(phase_.mesh().n_owned_nodes);
+  const auto n = as_size(matrix.block_size());
+  const auto n_owned = as_size(phase_.mesh().n_owned_nodes);
   largest_.resize(n_owned * n, 0.0);
   // Diagonals keep a share of the largest value that they have had, which slows what has just lost its
   // stiffness.
   for (std::size_t node = 0; node < n_owned; ++node) {
-    double* const block = matrix.diagonal_block(static_cast<Index>(node));
+    double* const block = matrix.diagonal_block(as_index(node));
     for (std::size_t c = 0; c < n; ++c) {
       double& largest = largest_[node * n + c];
       largest = std::max(largest, block[c * n + c]);
@@ -83,7 +84,7 @@ class ShortSteps final : public linear::TangentSolver {
 
  private:
   linear::LinearReport shorten(linear::LinearReport report, std::span<double> x) const {
-    const auto n = static_cast<std::size_t>(components_);
+    const auto n = as_size(components_);
     // No node moves farther than allowed; the direction stays.
     double squares = 0;
     for (std::size_t i = 0; i + n <= n_; i += n) {
@@ -122,7 +123,7 @@ linear::NewtonReport attempt_again(MechanicalPhase& phase, const MechanicalState
   options.max_iterations *= 2;
   options.descends = true;
   HeldEquilibrium held(phase, old, share);
-  const auto n = static_cast<std::size_t>(phase.mesh().n_owned_nodes * phase.bodies().components);
+  const auto n = as_size(phase.mesh().n_owned_nodes * phase.bodies().components);
   ShortSteps short_steps(solver, n, phase.bodies().components, k_longest_way * diagonal);
   return linear::newton(held, short_steps, ghosts, fields, x, options);
 }

@@ -8,6 +8,7 @@
 #include "mechanics/loads/inertial_forces.hpp"
 #include "mechanics/loads/loads.hpp"
 #include "mechanics/solver/nodal_pressure.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/common_failure.hpp"
 #include "system/profile.hpp"
 
@@ -56,7 +57,7 @@ void MechanicalBodies::set_body_force(double time) {
       if (kernel == nullptr) continue;
       const mesh::ElementBlock& block = mesh.blocks[b];
       const double density = material(block.body).density;
-      std::vector<double> force(3 * static_cast<std::size_t>(block.size()));
+      std::vector<double> force(3 * as_size(block.size()));
       for (std::size_t i = 0; i < force.size(); ++i) force[i] = density * loads->conditions().gravity[i % 3];
       loads->add_body_forces(block, time, force);
       kernel->set_body_force(force);
@@ -69,8 +70,7 @@ std::size_t MechanicalBodies::n_unknowns() const {
 }
 
 std::size_t MechanicalBodies::n_residuals() const {
-  return n_forces() + (pressure ? static_cast<std::size_t>(mesh.n_owned_nodes * pressure->fields().n_fields)
-                                : std::size_t{0});
+  return n_forces() + (pressure ? as_size(mesh.n_owned_nodes * pressure->fields().n_fields) : std::size_t{0});
 }
 
 std::vector<double> MechanicalBodies::start(const MechanicalState& old, const MechanicalPass& pass) const {

@@ -16,6 +16,7 @@
 #include "mechanics/state/pass.hpp"
 #include "mechanics/state/phase_fields.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
@@ -41,7 +42,7 @@ struct MechanicalBodies {
   /// Collective.
   void set_body_force(double time);
 
-  const material::Material& material(int body) const { return materials[static_cast<std::size_t>(body)]; }
+  const material::Material& material(int body) const { return materials[as_size(body)]; }
   /// The share of t_{n+1} in the mean of the forces that a step works with in the balance of momentum.
   double force_share() const { return inertia ? inertia->motion().force_share() : 1.0; }
   /// The share of t_{n+1} in the mean of the forces whose work a step does (Motion::work_share).
@@ -49,12 +50,10 @@ struct MechanicalBodies {
 
   // The unknowns of Newton's method are displacements [local node][component] and, where elements are mixed,
   // pressures in their unit [local node][field]; residuals are on owned nodes.
-  std::size_t n_displacements() const { return mesh.x.size() * static_cast<std::size_t>(components); }
+  std::size_t n_displacements() const { return mesh.x.size() * as_size(components); }
   std::size_t n_unknowns() const;
   /// Entries of the displacement in the residuals.
-  std::size_t n_forces() const {
-    return static_cast<std::size_t>(mesh.n_owned_nodes) * static_cast<std::size_t>(components);
-  }
+  std::size_t n_forces() const { return as_size(mesh.n_owned_nodes) * as_size(components); }
   std::size_t n_residuals() const;
   /// Newton's start, with the prescribed displacements at the end of the pass.
   std::vector<double> start(const MechanicalState& old, const MechanicalPass& pass) const;

@@ -10,6 +10,7 @@
 #include "mechanics/solver/nodal_pressure.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
 #include "mechanics/state/stress_history.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
@@ -25,7 +26,7 @@ constexpr double k_round_off_strain = 1e-13;
 
 MechanicalEquations::MechanicalEquations(MechanicalBodies& bodies, MechanicalMatrix& system)
     : bodies_(bodies), system_(system) {
-  const auto n_owned = static_cast<std::size_t>(bodies.mesh.n_owned_nodes * bodies.components);
+  const auto n_owned = as_size(bodies.mesh.n_owned_nodes * bodies.components);
   forces_.resize(bodies.n_displacements());
   external_.resize(n_owned);
   if (bodies.inertia) inertial_.resize(n_owned);
@@ -86,7 +87,7 @@ void MechanicalEquations::prepare(const MechanicalState& old, const MechanicalPa
          .stress_share = remembers ? bodies_.inertia->motion().work_share : 1,
          .at_work = pass.at_work != nullptr ? &pass.at_work->stress[b] : nullptr,
          .phases = bodies_.nodal_phases.evaluate(b, fraction_place(pass), fractions_before(old, pass)),
-         .melt = &bodies_.melt[static_cast<std::size_t>(bodies_.mesh.blocks[b].body)],
+         .melt = &bodies_.melt[as_size(bodies_.mesh.blocks[b].body)],
          .lead = pass.lead != nullptr && !(*pass.lead)[b].empty() ? &(*pass.lead)[b] : nullptr});
   if (bodies_.pressure) bodies_.pressure->begin();
   residual_is_known_ = false;
@@ -147,7 +148,7 @@ void MechanicalEquations::add_residual_to_balance(std::span<const double> r) {
   std::vector<double> holding(r.size(), 0.0), rest(r.begin(), r.end());
   for (const auto& group : bodies_.loads->constraint_groups())
     for (const Index entry : group) {
-      const auto at = static_cast<std::size_t>(entry);
+      const auto at = as_size(entry);
       if (at < r.size()) holding[at] = r[at];
     }
   system_.matrix().constraints().sum(rest);

@@ -11,6 +11,7 @@
 #include "mechanics/equilibrium_rejected.hpp"
 #include "mechanics/loads/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mechanics {
@@ -21,7 +22,7 @@ namespace {
 std::string body_of(const mesh::Mesh& mesh, Index node) {
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body >= 0 && std::find(block.nodes.begin(), block.nodes.end(), node) != block.nodes.end())
-      return mesh.bodies[static_cast<std::size_t>(block.body)].name;
+      return mesh.bodies[as_size(block.body)].name;
   return {};
 }
 
@@ -31,7 +32,7 @@ std::vector<double> flowing_shares(const MechanicalBodies& bodies, std::span<con
   std::vector<double> sums(2 * bodies.mesh.bodies.size(), 0.0);
   for (std::size_t b = 0; b < bodies.blocks.size(); ++b) {
     const FlowingVolume volume = bodies.blocks[b]->flowing(x.first(bodies.n_displacements()));
-    const auto body = static_cast<std::size_t>(bodies.mesh.blocks[b].body);
+    const auto body = as_size(bodies.mesh.blocks[b].body);
     sums[2 * body] += volume.flowing;
     sums[2 * body + 1] += volume.all;
   }
@@ -62,11 +63,11 @@ std::string worst_place(MechanicalPhase& phase, std::span<const double> x) {
   const int owner = processes::find_largest(worst).rank;
   std::string text;
   if (owner == processes::rank() && !r.empty()) {
-    const std::size_t node = entry / static_cast<std::size_t>(bodies.components);
+    const std::size_t node = entry / as_size(bodies.components);
     const mesh::Point& p = bodies.mesh.x[node];
     text = fmt::format("node {} of body '{}' at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N",
-                       bodies.mesh.input_node[node], body_of(bodies.mesh, static_cast<Index>(node)), p[0],
-                       p[1], p[2], r[entry]);
+                       bodies.mesh.input_node[node], body_of(bodies.mesh, as_index(node)), p[0], p[1], p[2],
+                       r[entry]);
   }
   processes::broadcast(text, owner);
   return text;
@@ -79,8 +80,7 @@ LawFailure law_failure(const MechanicalBodies& bodies, std::span<const double> x
   for (std::size_t b = 0; b < bodies.blocks.size() && found.text.empty(); ++b) {
     found = bodies.blocks[b]->failure(x.first(bodies.n_displacements()));
     if (!found.text.empty())
-      found.text = fmt::format("body '{}', {}",
-                               bodies.mesh.bodies[static_cast<std::size_t>(bodies.mesh.blocks[b].body)].name,
+      found.text = fmt::format("body '{}', {}", bodies.mesh.bodies[as_size(bodies.mesh.blocks[b].body)].name,
                                found.text);
   }
   // The lowest process that has one tells it to all, so that every process reports the same.

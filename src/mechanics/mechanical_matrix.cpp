@@ -8,6 +8,7 @@
 #include "mechanics/loads/loads.hpp"
 #include "mechanics/solver/nodal_pressure.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -52,7 +53,7 @@ linear::NodeGraph MechanicalMatrix::graph() const {
   // depends on the displacement of those that it touches.
   if (!bodies_.active.complete() && bodies_.options.mapping != Mapping::simultaneous) {
     std::vector<char> absent(bodies_.mesh.x.size());
-    for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !bodies_.active.node(static_cast<Index>(i));
+    for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !bodies_.active.node(as_index(i));
     graph.leave_out(std::move(absent));
   }
   for (const mesh::ElementBlock& block : bodies_.mesh.blocks)

@@ -15,6 +15,7 @@
 #include "mechanics/solver/nodal_pressure.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
 #include "mechanics/state/stress_history.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mechanics {
@@ -60,7 +61,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 void MechanicalPhase::create_blocks(const std::vector<material::Material>& materials) {
   for (const mesh::ElementBlock& block : bodies_.mesh.blocks) {
-    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    const material::Material& material = materials[as_size(block.body)];
     if (!bodies_.active.body(block.body)) {
       bodies_.blocks.push_back(std::make_unique<AbsentBlock>());
       continue;
@@ -106,11 +107,11 @@ std::vector<double> MechanicalPhase::initial_pressure() {
     const std::vector<double>& stress = options.initial_stress[b];
     if (stress.empty() || dynamic_cast<MixedKernel*>(bodies_.blocks[b].get()) == nullptr) continue;
     const mesh::ElementBlock& block = bodies_.mesh.blocks[b];
-    const int field = fields.of_body[static_cast<std::size_t>(block.body)];
+    const int field = fields.of_body[as_size(block.body)];
     for (Index e = 0; e < block.size(); ++e)
       for (int a = 0; a < mesh::node_count(block.shape); ++a) {
-        const auto at = static_cast<std::size_t>(block.element(e)[a] * pressure.fields().n_fields + field);
-        const double* s = stress.data() + 6 * static_cast<std::size_t>(e);
+        const auto at = as_size(block.element(e)[a] * pressure.fields().n_fields + field);
+        const double* s = stress.data() + 6 * as_size(e);
         sum[at] += (s[0] + s[1] + s[2]) / 3;
         weight[at] += 1;
       }
@@ -126,19 +127,18 @@ std::vector<double> MechanicalPhase::nodal_mass() const {
   if (bodies_.inertia) {
     // The weight of the very same masses: a free body falls as one.
     const std::vector<double> ones(bodies_.mesh.x.size(), 1.0);
-    bodies_.inertia->mass().multiply(
-        ones, 1, std::span(mass).first(static_cast<std::size_t>(bodies_.mesh.n_owned_nodes)));
+    bodies_.inertia->mass().multiply(ones, 1, std::span(mass).first(as_size(bodies_.mesh.n_owned_nodes)));
     return mass;
   }
   for (std::size_t b = 0; b < bodies_.blocks.size(); ++b)
-    bodies_.blocks[b]->add_nodal_volume(
-        bodies_.materials[static_cast<std::size_t>(bodies_.mesh.blocks[b].body)].density, mass);
+    bodies_.blocks[b]->add_nodal_volume(bodies_.materials[as_size(bodies_.mesh.blocks[b].body)].density,
+                                        mass);
   return mass;
 }
 
 void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
   const std::vector<double> mass = nodal_mass();
-  const auto n = static_cast<std::size_t>(bodies_.components);
+  const auto n = as_size(bodies_.components);
   bodies_.weight.resize(mass.size() * n);
   for (std::size_t node = 0; node < mass.size(); ++node)
     for (std::size_t i = 0; i < n; ++i) bodies_.weight[node * n + i] = mass[node] * gravity[i];

@@ -6,6 +6,7 @@
 
 #include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 #include "system/profile.hpp"
@@ -32,7 +33,7 @@ StepDeformation held_deformation(MechanicalPhase& phase, const MechanicalState& 
          .dt = 1,
          .effective = 1,
          .phases = bodies.nodal_phases.evaluate(b, {temperature, plateau_share}, {}),
-         .melt = &bodies.melt[static_cast<std::size_t>(bodies.mesh.blocks[b].body)],
+         .melt = &bodies.melt[as_size(bodies.mesh.blocks[b].body)],
          .expands = expands}));
   // The kernels have been given another step, so that the last residual is none of theirs.
   phase.equations().forget_residual();
@@ -65,7 +66,7 @@ FlowChange restart_flow(MechanicalPhase& phase, const MechanicalState& old, cons
          .dt = pass.dt,
          .effective = time_step(bodies.options, old, pass),
          .phases = bodies.nodal_phases.evaluate(b, fraction_place(pass), fractions_before(old, pass)),
-         .melt = &bodies.melt[static_cast<std::size_t>(bodies.mesh.blocks[b].body)]},
+         .melt = &bodies.melt[as_size(bodies.mesh.blocks[b].body)]},
         old.displacement, trial.displacement,
         {.history = trial.history[b],
          .elements = b < trial.elements.size() ? &trial.elements[b] : nullptr,

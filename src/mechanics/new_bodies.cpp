@@ -4,14 +4,15 @@
 
 #include "mechanics/elements/block_kernel.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
 std::vector<char> nodes_of_bodies(const mesh::Mesh& mesh, const std::vector<char>& bodies) {
   std::vector<char> marked(mesh.x.size(), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
-    if (bodies[static_cast<std::size_t>(block.body)] != 0)
-      for (const Index node : block.nodes) marked[static_cast<std::size_t>(node)] = 1;
+    if (bodies[as_size(block.body)] != 0)
+      for (const Index node : block.nodes) marked[as_size(node)] = 1;
   return marked;
 }
 
@@ -27,7 +28,7 @@ void renew_nodes(const mesh::Mesh& mesh, const std::vector<char>& bodies, Mechan
 
 void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies, MechanicalState& state) {
   for (std::size_t b = 0; b < phase.mesh().blocks.size(); ++b) {
-    if (bodies[static_cast<std::size_t>(phase.mesh().blocks[b].body)] == 0) continue;
+    if (bodies[as_size(phase.mesh().blocks[b].body)] == 0) continue;
     if (!phase.bodies().active.body(phase.mesh().blocks[b].body)) continue;  // it only conducts heat
     // A history of its own, no stress, and the solid fraction with which it was poured.
     state.history[b] = phase.bodies().blocks[b]->initial_history();
@@ -37,9 +38,9 @@ void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies
     if (state.solid_fraction.empty()) continue;
     const std::vector<double>& poured = phase.bodies().nodal_phases.initial_solid_fraction();
     const BodyFields& fields = phase.bodies().nodal_phases.fields();
-    const auto field = fields.of_body[static_cast<std::size_t>(phase.mesh().blocks[b].body)];
+    const auto field = fields.of_body[as_size(phase.mesh().blocks[b].body)];
     for (const Index node : phase.mesh().blocks[b].nodes) {
-      const auto place = static_cast<std::size_t>(node * fields.n_fields + field);
+      const auto place = as_size(node * fields.n_fields + field);
       state.solid_fraction[place] = poured[place];
     }
   }

@@ -8,6 +8,7 @@
 #include "mechanics/elements/structural_points.hpp"
 #include "mechanics/mechanical_restart.hpp"
 #include "mechanics/new_bodies.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -53,7 +54,7 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, linear::Bl
   }
   // The diagonal of the nodes' own heat, at once for all blocks.
   for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node)
-    *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
+    *matrix.diagonal_block(node) += work_[as_size(node)];
 }
 
 void StructuralHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> temperature) {

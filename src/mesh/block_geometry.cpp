@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "mesh/block_part.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -53,7 +54,7 @@ void gradients_of(const std::vector<Point>& x, const Index* nodes, const double*
   for (std::size_t a = 0; a < n_nodes; ++a) {
     alignas(sizeof(Lane)) double values[dim][k_lanes];
     for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-      const Point& of_node = x[static_cast<std::size_t>(nodes[a * k_lanes + lane])];
+      const Point& of_node = x[as_size(nodes[a * k_lanes + lane])];
       for (std::size_t i = 0; i < dim; ++i) values[i][lane] = of_node[i];
     }
     for (std::size_t i = 0; i < dim; ++i) corner[a][i] = Lane::load(values[i]);
@@ -103,8 +104,7 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, Analys
       mesh_(&mesh) {
   // Shape functions and their reference gradients are the same for all elements, so they are evaluated once
   // for each point of the rule.
-  const auto nn = static_cast<std::size_t>(n_nodes), nd = static_cast<std::size_t>(dim),
-             np = static_cast<std::size_t>(n_points), nb = static_cast<std::size_t>(n_batches);
+  const auto nn = as_size(n_nodes), nd = as_size(dim), np = as_size(n_points), nb = as_size(n_batches);
   values.resize(np * nn);
   reference_.resize(np * nn * nd);
   for (std::size_t p = 0; p < np; ++p) {
@@ -126,21 +126,20 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const ElementBlock& block, Analys
   // element, whose weight is zero.
   for (std::size_t b = 0; b < nb; ++b) {
     for (int lane = 0; lane < k_lanes; ++lane) {
-      const Index e = element_of(static_cast<Index>(b), lane, n_elements);
-      const bool padding = static_cast<Index>(b) * k_lanes + lane >= n_elements;
+      const Index e = element_of(as_index(b), lane, n_elements);
+      const bool padding = as_index(b) * k_lanes + lane >= n_elements;
       counted[b].set(lane, !padding && e < n_counted ? 1.0 : 0.0);
       for (std::size_t a = 0; a < nn; ++a)
-        nodes[(b * nn + a) * k_lanes + static_cast<std::size_t>(lane)] = block.element(e)[a];
+        nodes[(b * nn + a) * k_lanes + as_size(lane)] = block.element(e)[a];
     }
     // The weight of a point is that of the rule times the determinant, and 2πr about the axis.
-    hold_gradients(static_cast<Index>(b));
+    hold_gradients(as_index(b));
     for (int lane = 0; lane < k_lanes; ++lane) {
-      const bool padding = static_cast<Index>(b) * k_lanes + lane >= n_elements;
-      const Index* element = block.element(element_of(static_cast<Index>(b), lane, n_elements));
+      const bool padding = as_index(b) * k_lanes + lane >= n_elements;
+      const Index* element = block.element(element_of(as_index(b), lane, n_elements));
       for (std::size_t p = 0; p < np; ++p) {
         double radius = 0;
-        for (std::size_t a = 0; a < nn; ++a)
-          radius += values[p * nn + a] * mesh.x[static_cast<std::size_t>(element[a])][0];
+        for (std::size_t a = 0; a < nn; ++a) radius += values[p * nn + a] * mesh.x[as_size(element[a])][0];
         const std::size_t at = b * np + p;
         weight[at].set(
             lane, padding ? 0.0 : rule[p].weight * held_determinants_[p][lane] * revolution(kind, radius));
@@ -189,8 +188,8 @@ void BlockGeometry::hold_gradients(Index batch) const {
   // added.
   held_batch_ = batch;
   if (shift_.empty()) return;
-  const auto stride = static_cast<std::size_t>(n_nodes * dim);
-  const Lane* const of_batch = shift_.data() + static_cast<std::size_t>(batch) * stride;
+  const auto stride = as_size(n_nodes * dim);
+  const Lane* const of_batch = shift_.data() + as_size(batch) * stride;
   for (std::size_t i = 0; i < held_gradients_.size(); ++i) held_gradients_[i] += of_batch[i % stride];
 }
 
@@ -214,13 +213,13 @@ Rule weighting_rule(Shape shape, bool squared) {
 template <class Function>
 void integrate_basis(const Mesh& mesh, const ElementBlock& block, AnalysisKind kind, const Rule& rule,
                      Function f, PackVector<Lane>& integral, PackVector<Lane>& volume) {
-  const auto nn = static_cast<std::size_t>(node_count(block.shape));
-  integral.assign(static_cast<std::size_t>(batches(block.size())) * nn, Lane(0.0));
-  volume.assign(static_cast<std::size_t>(batches(block.size())), Lane(0.0));
+  const auto nn = as_size(node_count(block.shape));
+  integral.assign(as_size(batches(block.size())) * nn, Lane(0.0));
+  volume.assign(as_size(batches(block.size())), Lane(0.0));
   for_parts(block, [&](const ElementBlock& part, Index first) {
     const BlockGeometry geometry(mesh, part, kind, rule);
-    const auto from = static_cast<std::size_t>(first / k_lanes);
-    for (std::size_t b = 0; b < static_cast<std::size_t>(geometry.n_batches); ++b)
+    const auto from = as_size(first / k_lanes);
+    for (std::size_t b = 0; b < as_size(geometry.n_batches); ++b)
       for (std::size_t p = 0; p < rule.size(); ++p) {
         const Lane w = geometry.weight[b * rule.size() + p];
         volume[from + b] += w;
@@ -244,7 +243,7 @@ PackVector<Lane> nodal_weights(const Mesh& mesh, const ElementBlock& block, Anal
   PackVector<Lane> weights, volume;
   integrate_basis(
       mesh, block, kind, weighting_rule(block.shape, true), [](double n) { return n * n; }, weights, volume);
-  const auto nn = static_cast<std::size_t>(node_count(block.shape));
+  const auto nn = as_size(node_count(block.shape));
   for (std::size_t b = 0; b < volume.size(); ++b) {
     Lane scale(0.0);
     for (std::size_t a = 0; a < nn; ++a) scale += weights[b * nn + a];
@@ -260,8 +259,8 @@ FaceGeometry::FaceGeometry(const Mesh& mesh, const ElementBlock& faces, Analysis
       n_points(static_cast<int>(rule.size())),
       n_faces(faces.size()),
       n_counted(faces.n_counted) {
-  const auto nn = static_cast<std::size_t>(n_nodes), np = static_cast<std::size_t>(n_points);
-  const auto nd = static_cast<std::size_t>(dimension(faces.shape));
+  const auto nn = as_size(n_nodes), np = as_size(n_points);
+  const auto nd = as_size(dimension(faces.shape));
   assert(nd == 1 || nd == 2);
   // Values and reference gradients are the same for all faces of the shape.
   values.resize(np * nn);
@@ -270,14 +269,14 @@ FaceGeometry::FaceGeometry(const Mesh& mesh, const ElementBlock& faces, Analysis
     basis_values(faces.shape, rule[p].xi, std::span(values).subspan(p * nn, nn));
     basis_gradients(faces.shape, rule[p].xi, std::span(reference).subspan(p * nn * nd, nn * nd));
   }
-  weight.reserve(static_cast<std::size_t>(n_faces) * np);
-  normal.reserve(static_cast<std::size_t>(n_faces) * np);
+  weight.reserve(as_size(n_faces) * np);
+  normal.reserve(as_size(n_faces) * np);
   for (Index f = 0; f < n_faces; ++f)
     for (std::size_t p = 0; p < np; ++p) {
       Point s{}, t{};
       double radius = 0;
       for (std::size_t a = 0; a < nn; ++a) {
-        const Point& x = mesh.x[static_cast<std::size_t>(faces.element(f)[a])];
+        const Point& x = mesh.x[as_size(faces.element(f)[a])];
         radius += values[p * nn + a] * x[0];
         for (std::size_t i = 0; i < 3; ++i) {
           s[i] += reference[(p * nn + a) * nd] * x[i];

@@ -9,6 +9,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 
 namespace solidus::mesh {
@@ -39,8 +40,7 @@ struct BlockGeometry {
     held_batch_ = k_none;
   }
   Lane weight_at(Index batch, int point) const {
-    return weight[static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_points) +
-                  static_cast<std::size_t>(point)];
+    return weight[as_size(batch) * as_size(n_points) + as_size(point)];
   }
   std::size_t bytes() const;
 

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -45,14 +47,12 @@ std::vector<ElementRange> ranges_of(const Mesh& mesh) {
 /// processes is the lowest.
 template <class Visit>
 void each_face(const Mesh& mesh, const ElementRange& range, Visit&& visit) {
-  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(range.block)];
-  const auto n_vertices = static_cast<std::size_t>(vertex_count(face_shape(block.shape)));
+  const ElementBlock& block = mesh.blocks[as_size(range.block)];
+  const auto n_vertices = as_size(vertex_count(face_shape(block.shape)));
   for (Index e = range.first; e < range.last; ++e)
     for (int f = 0; f < face_count(block.shape); ++f) {
       const std::span<const int> local = face_nodes(block.shape, f).first(n_vertices);
-      const auto number = [&](int vertex) {
-        return mesh.global_node[static_cast<std::size_t>(block.element(e)[vertex])];
-      };
+      const auto number = [&](int vertex) { return mesh.global_node[as_size(block.element(e)[vertex])]; };
       visit(FacePlace{e, range.block, f}, block.element(e)[std::ranges::min(local, {}, number)]);
     }
 }
@@ -71,13 +71,13 @@ FacesOfNodes faces_of_nodes(const Mesh& mesh, std::span<const ElementRange> rang
     for (const ElementRange& range : ranges) {
       if (range.highest < first || range.lowest >= last) continue;
       each_face(mesh, range, [&](const FacePlace& place, Index lowest) {
-        if (lowest >= first && lowest < last) visit(place, static_cast<std::size_t>(lowest - first));
+        if (lowest >= first && lowest < last) visit(place, as_size(lowest - first));
       });
     }
   };
   // Two passes, one that counts and one that fills, so that the table needs no list for each node.
   FacesOfNodes faces;
-  faces.start.assign(static_cast<std::size_t>(last - first) + 1, 0);
+  faces.start.assign(as_size(last - first) + 1, 0);
   each([&](const FacePlace&, std::size_t slot) { ++faces.start[slot + 1]; });
   std::partial_sum(faces.start.begin(), faces.start.end(), faces.start.begin());
   faces.places.resize(faces.start.back());
@@ -87,7 +87,7 @@ FacesOfNodes faces_of_nodes(const Mesh& mesh, std::span<const ElementRange> rang
 }
 
 BodyFace face_at(const Mesh& mesh, const FacePlace& place) {
-  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(place.block)];
+  const ElementBlock& block = mesh.blocks[as_size(place.block)];
   const std::span<const int> local = face_nodes(block.shape, place.face);
   BodyFace face;
   face.body = block.body;
@@ -133,8 +133,7 @@ void visit_faces(const Mesh& mesh, Index n_lowest, const Visit& visit) {
 
 std::array<GlobalIndex, 4> body_face_key(const Mesh& mesh, std::span<const Index> vertices) {
   std::array<GlobalIndex, 4> key{-1, -1, -1, -1};
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    key[i] = mesh.global_node[static_cast<std::size_t>(vertices[i])];
+  for (std::size_t i = 0; i < vertices.size(); ++i) key[i] = mesh.global_node[as_size(vertices[i])];
   std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(vertices.size()));
   return key;
 }
@@ -146,8 +145,7 @@ std::set<std::array<GlobalIndex, 4>> body_face_keys(const Mesh& mesh, const std:
     if (surface == mesh.surfaces.end()) continue;
     for (const ElementBlock& faces : surface->second.faces)
       for (Index f = 0; f < faces.size(); ++f)
-        keys.insert(body_face_key(
-            mesh, std::span(faces.element(f), static_cast<std::size_t>(vertex_count(faces.shape)))));
+        keys.insert(body_face_key(mesh, std::span(faces.element(f), as_size(vertex_count(faces.shape)))));
   }
   return keys;
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::mesh {
@@ -19,12 +20,8 @@ struct BodyFace {
   int body = 0;
   std::array<Index, 8> nodes{};  ///< in the order of the element, outward: vertices first
   int n_vertices = 0, n_nodes = 0;
-  std::span<const Index> vertices() const {
-    return std::span(nodes).first(static_cast<std::size_t>(n_vertices));
-  }
-  std::span<const Index> all_nodes() const {
-    return std::span(nodes).first(static_cast<std::size_t>(n_nodes));
-  }
+  std::span<const Index> vertices() const { return std::span(nodes).first(as_size(n_vertices)); }
+  std::span<const Index> all_nodes() const { return std::span(nodes).first(as_size(n_nodes)); }
 };
 
 /// The key of a face with these vertices.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/nearest_place.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -86,7 +87,7 @@ ElementSearch::Found ElementSearch::find(const Point& point) const {
   const ElementBlock& block = mesh_.blocks[answers.block];
   for (const int a : best.local) found.nodes.push_back(block.element(answers.element)[a]);
   const Box box = element_box(mesh_, block, answers.element);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh_.dimension); ++k)
+  for (std::size_t k = 0; k < as_size(mesh_.dimension); ++k)
     found.size += (box.high[k] - box.low[k]) / mesh_.dimension;
   return found;
 }

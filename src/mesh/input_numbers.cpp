@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh/message.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -30,7 +31,7 @@ void InputNumbers::pack(Packer& message) const {
 
 void InputNumbers::push_back(GlobalIndex number) {
   if (!is_wide() && fits(number)) {
-    narrow_.push_back(static_cast<Index>(number));
+    narrow_.push_back(as_index(number));
     return;
   }
   if (!is_wide()) {

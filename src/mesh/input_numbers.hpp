@@ -7,6 +7,7 @@
 #include <iterator>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::mesh {
@@ -59,7 +60,7 @@ class InputNumbers {
       ++i_;
       return before;
     }
-    Iterator operator+(std::ptrdiff_t n) const { return {numbers_, i_ + static_cast<std::size_t>(n)}; }
+    Iterator operator+(std::ptrdiff_t n) const { return {numbers_, i_ + as_size(n)}; }
     bool operator==(const Iterator& other) const { return i_ == other.i_; }
 
    private:

@@ -9,6 +9,7 @@
 #include "mesh/block_geometry.hpp"
 #include "mesh/block_part.hpp"
 #include "mesh/nearest_place.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
@@ -37,8 +38,7 @@ struct Candidate {
 double NodalFunctional::share(std::span<const double> field, int n_components, int component) const {
   double sum = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    sum += weights[k] * field[static_cast<std::size_t>(nodes[k]) * static_cast<std::size_t>(n_components) +
-                              static_cast<std::size_t>(component)];
+    sum += weights[k] * field[as_size(nodes[k]) * as_size(n_components) + as_size(component)];
   return sum;
 }
 
@@ -58,12 +58,12 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
       if (distance_to_box(element_box(mesh, block, e), point) > best.distance) continue;
       NearestPlace here = nearest_place(mesh, block.shape, block.element(e), point);
       const Candidate candidate{here.distance, static_cast<double>(block.body),
-                                static_cast<double>(block.input_element[static_cast<std::size_t>(e)]),
+                                static_cast<double>(block.input_element[as_size(e)]),
                                 static_cast<double>(rank)};
       if (!(candidate.key() < best.key())) continue;
       best = candidate;
       nearest = std::move(here);
-      located.block = static_cast<Index>(b);
+      located.block = as_index(b);
       located.element = e;
     }
   }
@@ -84,13 +84,13 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   }
 
   // From the face's coordinates to the element's: reference faces are flat.
-  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(located.block)];
+  const ElementBlock& block = mesh.blocks[as_size(located.block)];
   std::vector<double> values(nearest.local.size());
   basis_values(nearest.shape, nearest.xi, values);
   const Rule reference_nodes = nodal_rule(block.shape);
   for (std::size_t a = 0; a < values.size(); ++a)
     for (std::size_t i = 0; i < 3; ++i)
-      located.xi[i] += values[a] * reference_nodes[static_cast<std::size_t>(nearest.local[a])].xi[i];
+      located.xi[i] += values[a] * reference_nodes[as_size(nearest.local[a])].xi[i];
   // The nodes of the face (or element) that holds the point, with their shape functions as weights.
   for (std::size_t a = 0; a < values.size(); ++a) {
     located.nodes.push_back(block.element(located.element)[nearest.local[a]]);
@@ -116,44 +116,41 @@ GroupKind kind_of(const Mesh& mesh, const std::string& group) {
 NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind group_kind,
                          AnalysisKind kind) {
   // By the kind of group: volumes of elements, areas of faces, or one for each node.
-  std::vector<double> weight(static_cast<std::size_t>(mesh.n_nodes()), 0.0);
+  std::vector<double> weight(as_size(mesh.n_nodes()), 0.0);
   if (group_kind == GroupKind::body) {
     for (const ElementBlock& block : mesh.blocks) {
-      if (mesh.bodies[static_cast<std::size_t>(block.body)].name != group) continue;
+      if (mesh.bodies[as_size(block.body)].name != group) continue;
       for_parts(block, [&](const ElementBlock& part, Index) {
         const PackVector<Lane> integrals = basis_integrals(mesh, part, kind);
         const int nn = node_count(part.shape);
         for (Index e = 0; e < part.n_counted; ++e)
           for (int a = 0; a < nn; ++a)
-            weight[static_cast<std::size_t>(part.element(e)[a])] +=
-                integrals[static_cast<std::size_t>(e / k_lanes) * static_cast<std::size_t>(nn) +
-                          static_cast<std::size_t>(a)][e % k_lanes];
+            weight[as_size(part.element(e)[a])] +=
+                integrals[as_size(e / k_lanes) * as_size(nn) + as_size(a)][e % k_lanes];
       });
     }
   } else if (group_kind == GroupKind::surface && mesh.surfaces.contains(group)) {
     for (const ElementBlock& faces : mesh.surfaces.at(group).faces) {
       const FaceGeometry geometry(mesh, faces, kind, gauss_rule(faces.shape, 5));
-      const auto nn = static_cast<std::size_t>(geometry.n_nodes),
-                 np = static_cast<std::size_t>(geometry.n_points);
+      const auto nn = as_size(geometry.n_nodes), np = as_size(geometry.n_points);
       for (Index f = 0; f < faces.n_counted; ++f)
         for (std::size_t p = 0; p < np; ++p)
           for (std::size_t a = 0; a < nn; ++a)
-            weight[static_cast<std::size_t>(faces.element(f)[a])] +=
-                geometry.weight[static_cast<std::size_t>(f) * np + p] * geometry.values[p * nn + a];
+            weight[as_size(faces.element(f)[a])] +=
+                geometry.weight[as_size(f) * np + p] * geometry.values[p * nn + a];
     }
   } else if (group_kind == GroupKind::nodes && mesh.node_sets.contains(group)) {
     for (const Index i : mesh.node_sets.at(group))
-      if (i < mesh.n_owned_nodes) weight[static_cast<std::size_t>(i)] = 1;
+      if (i < mesh.n_owned_nodes) weight[as_size(i)] = 1;
   }
   // Only nodes with a weight are kept.
   NodalFunctional functional;
-  const auto n =
-      static_cast<std::size_t>(std::count_if(weight.begin(), weight.end(), [](double w) { return w != 0; }));
+  const auto n = as_size(std::count_if(weight.begin(), weight.end(), [](double w) { return w != 0; }));
   functional.nodes.reserve(n);
   functional.weights.reserve(n);
   for (std::size_t i = 0; i < weight.size(); ++i)
     if (weight[i] != 0) {
-      functional.nodes.push_back(static_cast<Index>(i));
+      functional.nodes.push_back(as_index(i));
       functional.weights.push_back(weight[i]);
     }
   return functional;

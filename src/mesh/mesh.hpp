@@ -13,6 +13,7 @@
 
 #include "mesh/input_numbers.hpp"
 #include "mesh/shape.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::mesh {
@@ -26,7 +27,7 @@ struct ElementBlock {
   InputNumbers input_element;  ///< number in the input file (for messages), same length as elements
   Index n_counted = 0;
 
-  Index size() const { return static_cast<Index>(nodes.size()) / node_count(shape); }
+  Index size() const { return as_index(nodes.size()) / node_count(shape); }
   const Index* element(Index e) const {
     return nodes.data() + static_cast<std::ptrdiff_t>(e) * node_count(shape);
   }
@@ -59,7 +60,7 @@ struct Mesh {
   std::map<std::string, std::vector<Index>>
       node_sets;  ///< every named group (surfaces, bodies, points) as local nodes
 
-  Index n_nodes() const { return static_cast<Index>(x.size()); }
+  Index n_nodes() const { return as_index(x.size()); }
 };
 
 }  // namespace solidus::mesh

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -17,7 +19,7 @@ bool inside(Shape shape, const Point& xi) {
   const int dim = dimension(shape);
   const bool simplex = dim > 1 && vertex_count(shape) == dim + 1;
   double sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
+  for (std::size_t i = 0; i < as_size(dim); ++i) {
     sum += xi[i];
     if (simplex ? xi[i] < -k_inside : std::abs(xi[i]) > 1 + k_inside) return false;
   }
@@ -57,7 +59,7 @@ class Search {
   // The place of the element nearest to the target: in its interior, or, where that has no stationary point,
   // on one of its faces, and so on down to the vertices.
   NearestPlace element(Shape shape, const Index* nodes) {
-    std::vector<int> all(static_cast<std::size_t>(node_count(shape)));
+    std::vector<int> all(as_size(node_count(shape)));
     for (std::size_t a = 0; a < all.size(); ++a) all[a] = static_cast<int>(a);
     NearestPlace best;
     descend(shape, nodes, all, best);
@@ -68,7 +70,7 @@ class Search {
   // Gauss–Newton on |x(ξ) − target|².
   bool stationary(Shape shape, const Index* nodes, const std::vector<int>& local, Point& xi,
                   double& distance) {
-    const auto dim = static_cast<std::size_t>(dimension(shape));
+    const auto dim = as_size(dimension(shape));
     std::array<double, 20> value{};
     std::array<double, 60> slope{};
     xi = centre(shape);
@@ -79,7 +81,7 @@ class Search {
       Point r = target_;
       std::array<Point, 3> tangent{};
       for (std::size_t a = 0; a < local.size(); ++a) {
-        const Point& x = mesh_.x[static_cast<std::size_t>(nodes[local[a]])];
+        const Point& x = mesh_.x[as_size(nodes[local[a]])];
         for (std::size_t i = 0; i < 3; ++i) {
           r[i] -= value[a] * x[i];
           for (std::size_t k = 0; k < dim; ++k) tangent[k][i] += slope[a * dim + k] * x[i];
@@ -107,7 +109,7 @@ class Search {
     Point xi{};
     double distance = 0;
     if (dimension(shape) == 0) {
-      const Point& x = mesh_.x[static_cast<std::size_t>(nodes[local[0]])];
+      const Point& x = mesh_.x[as_size(nodes[local[0]])];
       distance = std::hypot(x[0] - target_[0], x[1] - target_[1], x[2] - target_[2]);
       if (distance < best.distance) best = {distance, shape, local, xi};
       return;
@@ -122,7 +124,7 @@ class Search {
     // way.
     for (int f = 0; f < face_count(shape); ++f) {
       std::vector<int> face;
-      for (const int a : face_nodes(shape, f)) face.push_back(local[static_cast<std::size_t>(a)]);
+      for (const int a : face_nodes(shape, f)) face.push_back(local[as_size(a)]);
       descend(face_shape(shape), nodes, face, best);
     }
   }
@@ -143,7 +145,7 @@ Box element_box(const Mesh& mesh, const ElementBlock& block, Index e) {
   for (std::size_t i = 0; i < 3; ++i) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (int a = 0; a < node_count(block.shape); ++a) {
-      const double c = mesh.x[static_cast<std::size_t>(nodes[a])][i];
+      const double c = mesh.x[as_size(nodes[a])][i];
       low = std::min(low, c);
       high = std::max(high, c);
     }

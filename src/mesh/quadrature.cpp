@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -20,7 +21,7 @@ struct Gauss1 {
 
 // Gauss–Legendre on [−1, 1] by Newton's method on the Legendre polynomial (exact to rounding for any n).
 std::vector<Gauss1> gauss_legendre(int n) {
-  std::vector<Gauss1> rule(static_cast<std::size_t>(n));
+  std::vector<Gauss1> rule(as_size(n));
   for (int i = 0; i < n; ++i) {
     // The start is close to the i-th root; Newton's method needs few iterations from there.
     double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0;
@@ -38,7 +39,7 @@ std::vector<Gauss1> gauss_legendre(int n) {
       if (std::abs(dx) < 1e-16) break;
     }
     if (2 * i + 1 == n) x = 0;
-    rule[static_cast<std::size_t>(n - 1 - i)] = {x, 2 / ((1 - x * x) * slope * slope)};
+    rule[as_size(n - 1 - i)] = {x, 2 / ((1 - x * x) * slope * slope)};
   }
   return rule;
 }
@@ -51,7 +52,7 @@ Rule cube(int dim, int n) {
     Rule wider;
     for (const Gauss1& g : line)
       for (QuadraturePoint p : rule) {
-        p.xi[static_cast<std::size_t>(d)] = g.x;
+        p.xi[as_size(d)] = g.x;
         p.weight *= g.w;
         wider.push_back(p);
       }
@@ -150,15 +151,14 @@ Rule nodal_rule(Shape shape) {
   else
     for (int i = 0; i < dim; ++i) volume *= 2;
 
-  Rule rule(static_cast<std::size_t>(n));
+  Rule rule(as_size(n));
   for (int a = 0; a < vertices; ++a) {
-    Point& xi = rule[static_cast<std::size_t>(a)].xi;
+    Point& xi = rule[as_size(a)].xi;
     xi = {0, 0, 0};
     if (simplex) {
-      if (a > 0) xi[static_cast<std::size_t>(a - 1)] = 1;
+      if (a > 0) xi[as_size(a - 1)] = 1;
     } else {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i)
-        xi[i] = corner[static_cast<std::size_t>(a)][i];
+      for (std::size_t i = 0; i < as_size(dim); ++i) xi[i] = corner[as_size(a)][i];
     }
   }
   // A mid node lies halfway between the two vertices whose basis it is zero at; Gmsh's lists follow the edges
@@ -173,9 +173,9 @@ Rule nodal_rule(Shape shape) {
         const int m = vertex_count(face);
         const auto edges = dim == 2 ? 1 : m;
         for (int e = 0; e < edges; ++e) {
-          const Point& p = rule[static_cast<std::size_t>(local[static_cast<std::size_t>(e)])].xi;
-          const Point& q = rule[static_cast<std::size_t>(local[static_cast<std::size_t>((e + 1) % m)])].xi;
-          Point& mid = rule[static_cast<std::size_t>(local[static_cast<std::size_t>(m + e)])].xi;
+          const Point& p = rule[as_size(local[as_size(e)])].xi;
+          const Point& q = rule[as_size(local[as_size((e + 1) % m)])].xi;
+          Point& mid = rule[as_size(local[as_size(m + e)])].xi;
           for (std::size_t i = 0; i < 3; ++i) mid[i] = 0.5 * (p[i] + q[i]);
         }
       }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -33,12 +34,11 @@ Matrix inverse_of_regular(Shape shape) {
 Matrix jacobian(const RawMesh& mesh, Shape shape, const Index* nodes, const Point& xi) {
   std::array<double, 60> slope{};
   basis_gradients(shape, xi, slope);
-  const auto dim = static_cast<std::size_t>(dimension(shape));
+  const auto dim = as_size(dimension(shape));
   Matrix j{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(node_count(shape)); ++a)
+  for (std::size_t a = 0; a < as_size(node_count(shape)); ++a)
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < dim; ++k)
-        j[i][k] += mesh.x[static_cast<std::size_t>(nodes[a])][i] * slope[a * dim + k];
+      for (std::size_t k = 0; k < dim; ++k) j[i][k] += mesh.x[as_size(nodes[a])][i] * slope[a * dim + k];
   return j;
 }
 
@@ -73,7 +73,7 @@ double stretch(const Matrix& j, std::size_t dim) {
 }
 
 double distance(const RawMesh& mesh, Index a, Index b) {
-  const Point &p = mesh.x[static_cast<std::size_t>(a)], &q = mesh.x[static_cast<std::size_t>(b)];
+  const Point &p = mesh.x[as_size(a)], &q = mesh.x[as_size(b)];
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
@@ -88,16 +88,14 @@ void for_each_edge(const RawMesh& mesh, Shape shape, const Index* nodes, Functio
     const auto local = face_nodes(shape, face);
     const int n = vertex_count(face_shape(shape));
     for (int a = 0; a < (n == 2 ? 1 : n); ++a)
-      f(distance(mesh, nodes[local[static_cast<std::size_t>(a)]],
-                 nodes[local[static_cast<std::size_t>((a + 1) % n)]]));
+      f(distance(mesh, nodes[local[as_size(a)]], nodes[local[as_size((a + 1) % n)]]));
   }
 }
 
 Point centre(const RawMesh& mesh, Shape shape, const Index* nodes) {
   Point c{};
   for (int a = 0; a < vertex_count(shape); ++a)
-    for (std::size_t i = 0; i < 3; ++i)
-      c[i] += mesh.x[static_cast<std::size_t>(nodes[a])][i] / vertex_count(shape);
+    for (std::size_t i = 0; i < 3; ++i) c[i] += mesh.x[as_size(nodes[a])][i] / vertex_count(shape);
   return c;
 }
 
@@ -123,19 +121,19 @@ GroupReport assess_group(const RawMesh& mesh, const std::string& name, const Raw
   std::size_t n_edges = 0, n_elements = 0;
   double shortest = std::numeric_limits<double>::infinity();
   for (const RawBlock& block : group.blocks) {
-    const auto nn = static_cast<std::size_t>(node_count(block.shape));
+    const auto nn = as_size(node_count(block.shape));
     const std::size_t n = block.nodes.size() / nn;
     report.shapes.push_back({block.shape, n});
     n_elements += n;
-    for (const Index i : block.nodes) used[static_cast<std::size_t>(i)] = 1;
+    for (const Index i : block.nodes) used[as_size(i)] = 1;
     if (group.dimension == 0) continue;
     const Rule rule = stiffness_rule(block.shape);
     for (std::size_t e = 0; e < n; ++e) {
       const Index* nodes = block.nodes.data() + e * nn;
       // The measure is the integral of the stretch of the map: length, area or volume.
       for (const QuadraturePoint& p : rule)
-        report.measure += p.weight * stretch(jacobian(mesh, block.shape, nodes, p.xi),
-                                             static_cast<std::size_t>(group.dimension));
+        report.measure +=
+            p.weight * stretch(jacobian(mesh, block.shape, nodes, p.xi), as_size(group.dimension));
       for_each_edge(mesh, block.shape, nodes, [&](double length) {
         shortest = std::min(shortest, length);
         report.longest_edge = std::max(report.longest_edge, length);
@@ -155,7 +153,7 @@ GroupReport assess_group(const RawMesh& mesh, const std::string& name, const Raw
     }
   }
   // Sums become means.
-  report.n_nodes = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+  report.n_nodes = as_size(std::count(used.begin(), used.end(), 1));
   if (n_edges > 0) {
     report.shortest_edge = shortest;
     report.mean_edge = edge_sum / static_cast<double>(n_edges);
@@ -186,14 +184,14 @@ std::string measure_text(const GroupReport& group) {
 }  // namespace
 
 double element_quality(const RawMesh& mesh, Shape shape, const Index* nodes) {
-  const auto dim = static_cast<std::size_t>(dimension(shape));
+  const auto dim = as_size(dimension(shape));
   const Matrix inverse_regular = inverse_of_regular(shape);
   const Rule at = nodal_rule(shape);
   // The Jacobian of a linear simplex is the same everywhere.
   const int n = is_simplex(shape) && order(shape) == 1 ? 1 : vertex_count(shape);
   double least = 1;
   for (int a = 0; a < n; ++a) {
-    const Matrix j = jacobian(mesh, shape, nodes, at[static_cast<std::size_t>(a)].xi);
+    const Matrix j = jacobian(mesh, shape, nodes, at[as_size(a)].xi);
     least = std::min(least, mean_ratio(j, inverse_regular, dim));
   }
   return least;
@@ -216,7 +214,7 @@ QualityReport assess(const RawMesh& mesh, std::size_t n_worst) {
     for (const RawBlock& block : group.blocks) {
       report.bytes += block.nodes.size() * sizeof(Index) + block.input_element.bytes();
       if (group.dimension == mesh.dimension)
-        for (const Index i : block.nodes) used[static_cast<std::size_t>(i)] = 1;
+        for (const Index i : block.nodes) used[as_size(i)] = 1;
     }
   constexpr double far = std::numeric_limits<double>::infinity();
   Point low{far, far, far}, high{-far, -far, -far};
@@ -244,7 +242,7 @@ std::string to_text(const QualityReport& report) {
                   report.n_unused_nodes > 0 ? fmt::format(" ({} in no body)", report.n_unused_nodes) : "",
                   static_cast<double>(report.bytes) / 1e6);
   text += "extent [mm]:";
-  for (std::size_t d = 0; d < static_cast<std::size_t>(report.dimension); ++d)
+  for (std::size_t d = 0; d < as_size(report.dimension); ++d)
     text += fmt::format("{} {} {:.6g} to {:.6g}", d == 0 ? "" : ",", "xyz"[d], 1000 * report.lowest[d],
                         1000 * report.highest[d]);
   text += fmt::format("\n\n{:<20} {:<8} {:>8}  {:<24} {:>16}  {:>26}  {:>16}\n", "group", "kind", "nodes",
@@ -267,7 +265,7 @@ std::string to_text(const QualityReport& report) {
   for (const ElementReport& e : report.worst) {
     text += fmt::format("  {:.3f}  element {} ({}) of '{}' at (", e.quality, e.input_element, name(e.shape),
                         e.group);
-    for (std::size_t d = 0; d < static_cast<std::size_t>(report.dimension); ++d)
+    for (std::size_t d = 0; d < as_size(report.dimension); ++d)
       text += fmt::format("{}{:.5g}", d == 0 ? "" : ", ", 1000 * e.centre[d]);
     text += ") mm\n";
   }

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -17,7 +18,7 @@ constexpr std::array<std::array<int, 3>, 8> k_corner{
 // Barycentric coordinates of a simplex: λ_0 = 1 − Σξ, λ_i = ξ_i.
 std::array<double, 4> barycentric(int dim, const Point& xi) {
   std::array<double, 4> l{1, 0, 0, 0};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
+  for (std::size_t i = 0; i < as_size(dim); ++i) {
     l[i + 1] = xi[i];
     l[0] -= xi[i];
   }
@@ -29,17 +30,16 @@ double barycentric_gradient(int a, int i) {
 
 void simplex_values(int dim, int order, Edges edges, const Point& xi, std::span<double> v) {
   const auto l = barycentric(dim, xi);
-  const auto n = static_cast<std::size_t>(dim) + 1;
+  const auto n = as_size(dim) + 1;
   for (std::size_t a = 0; a < n; ++a) v[a] = order == 1 ? l[a] : l[a] * (2 * l[a] - 1);
   if (order == 2)
     for (std::size_t e = 0; e < edges.size(); ++e)
-      v[n + e] =
-          4 * l[static_cast<std::size_t>(edges[e].first)] * l[static_cast<std::size_t>(edges[e].second)];
+      v[n + e] = 4 * l[as_size(edges[e].first)] * l[as_size(edges[e].second)];
 }
 
 void simplex_gradients(int dim, int order, Edges edges, const Point& xi, std::span<double> g) {
   const auto l = barycentric(dim, xi);
-  const auto d = static_cast<std::size_t>(dim);
+  const auto d = as_size(dim);
   const std::size_t n = d + 1;
   for (std::size_t i = 0; i < d; ++i) {
     const int direction = static_cast<int>(i);
@@ -48,8 +48,8 @@ void simplex_gradients(int dim, int order, Edges edges, const Point& xi, std::sp
     if (order == 2)
       for (std::size_t e = 0; e < edges.size(); ++e) {
         const auto [p, q] = edges[e];
-        g[(n + e) * d + i] = 4 * (barycentric_gradient(p, direction) * l[static_cast<std::size_t>(q)] +
-                                  l[static_cast<std::size_t>(p)] * barycentric_gradient(q, direction));
+        g[(n + e) * d + i] = 4 * (barycentric_gradient(p, direction) * l[as_size(q)] +
+                                  l[as_size(p)] * barycentric_gradient(q, direction));
       }
   }
 }
@@ -63,11 +63,10 @@ struct CubeNode {
 
 CubeNode cube_node(int dim, int a, Edges edges) {
   const int vertices = 1 << dim;
-  if (a < vertices) return {k_corner[static_cast<std::size_t>(a)]};
-  const auto [p, q] = edges[static_cast<std::size_t>(a - vertices)];
+  if (a < vertices) return {k_corner[as_size(a)]};
+  const auto [p, q] = edges[as_size(a - vertices)];
   CubeNode n;
-  for (std::size_t i = 0; i < 3; ++i)
-    n.c[i] = (k_corner[static_cast<std::size_t>(p)][i] + k_corner[static_cast<std::size_t>(q)][i]) / 2;
+  for (std::size_t i = 0; i < 3; ++i) n.c[i] = (k_corner[as_size(p)][i] + k_corner[as_size(q)][i]) / 2;
   return n;
 }
 
@@ -83,17 +82,17 @@ void cube_values(int dim, int order, int n_nodes, Edges edges, const Point& xi, 
     const CubeNode node = cube_node(dim, a, edges);
     double value = 1, sum = 1.0 - dim;
     bool vertex = true;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
+    for (std::size_t i = 0; i < as_size(dim); ++i) {
       value *= factor(node.c[i], xi[i]);
       sum += node.c[i] * xi[i];
       vertex = vertex && node.c[i] != 0;
     }
-    v[static_cast<std::size_t>(a)] = order == 2 && vertex ? value * sum : value;
+    v[as_size(a)] = order == 2 && vertex ? value * sum : value;
   }
 }
 
 void cube_gradients(int dim, int order, int n_nodes, Edges edges, const Point& xi, std::span<double> g) {
-  const auto d = static_cast<std::size_t>(dim);
+  const auto d = as_size(dim);
   // Products of factors along the axes; vertices of quadratic serendipity elements have a sum as one more
   // factor.
   for (int a = 0; a < n_nodes; ++a) {
@@ -109,7 +108,7 @@ void cube_gradients(int dim, int order, int n_nodes, Edges edges, const Point& x
       double slope = factor_slope(node.c[i], xi[i]);
       for (std::size_t j = 0; j < d; ++j)
         if (j != i) slope *= factor(node.c[j], xi[j]);
-      g[static_cast<std::size_t>(a) * d + i] = order == 2 && vertex ? slope * sum + value * node.c[i] : slope;
+      g[as_size(a) * d + i] = order == 2 && vertex ? slope * sum + value * node.c[i] : slope;
     }
   }
 }
@@ -141,9 +140,9 @@ Shape face_shape(Shape shape) {
 std::span<const int> face_nodes(Shape shape, int face) {
   assert(face >= 0 && face < face_count(shape));
   const ShapeRow& row = row_of(shape);
-  const auto f = static_cast<std::size_t>(face);
-  const std::size_t width = row.face_nodes.size() / static_cast<std::size_t>(row.faces);
-  return row.face_nodes.subspan(width * f, static_cast<std::size_t>(node_count(row.face)));
+  const auto f = as_size(face);
+  const std::size_t width = row.face_nodes.size() / as_size(row.faces);
+  return row.face_nodes.subspan(width * f, as_size(node_count(row.face)));
 }
 
 void basis_values(Shape shape, const Point& xi, std::span<double> v) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "mesh/shape.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -69,7 +70,7 @@ Tetrahedra::Tetrahedra(RawMesh& mesh) : mesh_(mesh), locked_(mesh.x.size(), 0), 
     for (const RawBlock& block : group.blocks) {
       const bool changes = group.dimension == 3 && mesh.dimension == 3 && block.shape == Shape::tet4;
       if (!changes) {
-        for (const Index node : block.nodes) locked_[static_cast<std::size_t>(node)] = 1;
+        for (const Index node : block.nodes) locked_[as_size(node)] = 1;
         continue;
       }
       for (std::size_t e = 0; e < block.nodes.size() / 4; ++e) {
@@ -78,7 +79,7 @@ Tetrahedra::Tetrahedra(RawMesh& mesh) : mesh_(mesh), locked_(mesh.x.size(), 0), 
         tet.body = static_cast<int>(bodies_.size()) - 1;
         if (volume_6(x(tet.nodes[0]), x(tet.nodes[1]), x(tet.nodes[2]), x(tet.nodes[3])) < 0)
           std::swap(tet.nodes[2], tet.nodes[3]);
-        for (const Index node : tet.nodes) around_[static_cast<std::size_t>(node)].push_back(tets_.size());
+        for (const Index node : tet.nodes) around_[as_size(node)].push_back(tets_.size());
         tets_.push_back(tet);
         number_.push_back(block.input_element.empty() ? 0 : block.input_element[e]);
         next_number_ = std::max(next_number_, number_.back() + 1);
@@ -100,13 +101,13 @@ void Tetrahedra::put_back() {
         block.nodes.clear();
         block.input_element.clear();
         for (std::size_t t = 0; is_first && t < tets_.size(); ++t) {
-          if (!is_alive(t) || bodies_[static_cast<std::size_t>(tets_[t].body)] != name) continue;
+          if (!is_alive(t) || bodies_[as_size(tets_[t].body)] != name) continue;
           block.nodes.insert(block.nodes.end(), tets_[t].nodes.begin(), tets_[t].nodes.end());
           if (numbered) block.input_element.push_back(number_[t]);
         }
         is_first = false;
       }
-      for (const Index node : block.nodes) used[static_cast<std::size_t>(node)] = 1;
+      for (const Index node : block.nodes) used[as_size(node)] = 1;
     }
   }
   // Nodes that nothing uses any more are dropped, and all others move up in their order.
@@ -114,7 +115,7 @@ void Tetrahedra::put_back() {
   std::size_t n = 0;
   for (std::size_t i = 0; i < mesh_.x.size(); ++i) {
     if (used[i] == 0) continue;
-    renumbered[i] = static_cast<Index>(n);
+    renumbered[i] = as_index(n);
     mesh_.x[n] = mesh_.x[i];
     if (!mesh_.input_node.empty()) mesh_.input_node[n] = mesh_.input_node[i];
     ++n;
@@ -124,7 +125,7 @@ void Tetrahedra::put_back() {
   if (!mesh_.input_node.empty()) mesh_.input_node.resize(n);
   for (auto& [name, group] : mesh_.groups)
     for (RawBlock& block : group.blocks)
-      for (Index& node : block.nodes) node = renumbered[static_cast<std::size_t>(node)];
+      for (Index& node : block.nodes) node = renumbered[as_size(node)];
 }
 
 double Tetrahedra::quality(const std::array<Index, 4>& n) const {
@@ -134,10 +135,10 @@ double Tetrahedra::quality(const std::array<Index, 4>& n) const {
 void Tetrahedra::replace(const std::vector<std::size_t>& old, const std::vector<Tetrahedron>& made) {
   for (const std::size_t t : old) {
     alive_[t] = 0;
-    for (const Index node : tets_[t].nodes) std::erase(around_[static_cast<std::size_t>(node)], t);
+    for (const Index node : tets_[t].nodes) std::erase(around_[as_size(node)], t);
   }
   for (const Tetrahedron& tet : made) {
-    for (const Index node : tet.nodes) around_[static_cast<std::size_t>(node)].push_back(tets_.size());
+    for (const Index node : tet.nodes) around_[as_size(node)].push_back(tets_.size());
     tets_.push_back(tet);
     number_.push_back(next_number_++);
     alive_.push_back(1);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -48,15 +49,13 @@ class Tetrahedra {
   std::size_t count() const { return tets_.size(); }
   bool is_alive(std::size_t t) const { return alive_[t] != 0; }
   const Tetrahedron& operator[](std::size_t t) const { return tets_[t]; }
-  const std::vector<std::size_t>& around(Index node) const { return around_[static_cast<std::size_t>(node)]; }
+  const std::vector<std::size_t>& around(Index node) const { return around_[as_size(node)]; }
   /// The name of the body that a tetrahedron belongs to.
-  const std::string& body_name(std::size_t t) const {
-    return bodies_[static_cast<std::size_t>(tets_[t].body)];
-  }
-  bool is_locked(Index node) const { return locked_[static_cast<std::size_t>(node)] != 0; }
+  const std::string& body_name(std::size_t t) const { return bodies_[as_size(tets_[t].body)]; }
+  bool is_locked(Index node) const { return locked_[as_size(node)] != 0; }
 
-  const Point& x(Index node) const { return mesh_.x[static_cast<std::size_t>(node)]; }
-  void move(Index node, const Point& place) { mesh_.x[static_cast<std::size_t>(node)] = place; }
+  const Point& x(Index node) const { return mesh_.x[as_size(node)]; }
+  void move(Index node, const Point& place) { mesh_.x[as_size(node)] = place; }
   double quality(const std::array<Index, 4>& nodes) const;
 
   /// Replaces tetrahedra by others.

@@ -8,6 +8,7 @@
 
 #include "mesh/quadrature.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -18,12 +19,11 @@ namespace {
 double jacobian(const RawMesh& mesh, Shape shape, const Index* element, const Point& xi) {
   std::array<double, 60> g{};
   basis_gradients(shape, xi, g);
-  const auto dim = static_cast<std::size_t>(dimension(shape));
+  const auto dim = as_size(dimension(shape));
   std::array<std::array<double, 3>, 3> j{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(node_count(shape)); ++a)
+  for (std::size_t a = 0; a < as_size(node_count(shape)); ++a)
     for (std::size_t i = 0; i < dim; ++i)
-      for (std::size_t k = 0; k < dim; ++k)
-        j[i][k] += mesh.x[static_cast<std::size_t>(element[a])][i] * g[a * dim + k];
+      for (std::size_t k = 0; k < dim; ++k) j[i][k] += mesh.x[as_size(element[a])][i] * g[a * dim + k];
   if (dim == 2) return j[0][0] * j[1][1] - j[0][1] * j[1][0];
   return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
          j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
@@ -35,8 +35,7 @@ double extent(const RawMesh& mesh, Shape shape, const Index* element) {
   double longest = 0;
   for (int a = 0; a < vertex_count(shape); ++a)
     for (int b = 0; b < a; ++b) {
-      const Point &p = mesh.x[static_cast<std::size_t>(element[a])],
-                  &q = mesh.x[static_cast<std::size_t>(element[b])];
+      const Point &p = mesh.x[as_size(element[a])], &q = mesh.x[as_size(element[b])];
       longest = std::max(longest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
     }
   return longest;
@@ -70,8 +69,7 @@ std::vector<int> mirrored(Shape shape) {
 std::string place(const RawMesh& mesh, Shape shape, const Index* element) {
   Point c{};
   for (int a = 0; a < vertex_count(shape); ++a)
-    for (std::size_t i = 0; i < 3; ++i)
-      c[i] += mesh.x[static_cast<std::size_t>(element[a])][i] / vertex_count(shape);
+    for (std::size_t i = 0; i < 3; ++i) c[i] += mesh.x[as_size(element[a])][i] / vertex_count(shape);
   char text[96];
   std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g) m", c[0], c[1], c[2]);
   return text;
@@ -83,15 +81,14 @@ void check_block(RawMesh& mesh, const std::string& group, RawBlock& block, const
   const bool affine = order(block.shape) == 1 && vertex_count(block.shape) == dimension(block.shape) + 1;
   const Rule interior = stiffness_rule(block.shape), nodes = affine ? Rule{} : nodal_rule(block.shape);
   const std::vector<int> mirror = mirrored(block.shape);
-  for (std::size_t e = 0; e * static_cast<std::size_t>(nn) < block.nodes.size(); ++e) {
+  for (std::size_t e = 0; e * as_size(nn) < block.nodes.size(); ++e) {
     // The sign of the volume tells the orientation; a mirrored element is turned.
-    Index* element = block.nodes.data() + e * static_cast<std::size_t>(nn);
+    Index* element = block.nodes.data() + e * as_size(nn);
     double sum = 0;
     for (const QuadraturePoint& p : interior) sum += p.weight * jacobian(mesh, block.shape, element, p.xi);
     if (sum < 0) {
       const std::vector<Index> old(element, element + nn);
-      for (int a = 0; a < nn; ++a)
-        element[a] = old[static_cast<std::size_t>(mirror[static_cast<std::size_t>(a)])];
+      for (int a = 0; a < nn; ++a) element[a] = old[as_size(mirror[as_size(a)])];
     }
     // Everywhere inside the Jacobian must be positive, relative to the size of the element.
     double least = std::abs(sum);
@@ -100,7 +97,7 @@ void check_block(RawMesh& mesh, const std::string& group, RawBlock& block, const
         least = std::min(least, jacobian(mesh, block.shape, element, p.xi));
     const double size = std::pow(extent(mesh, block.shape, element), dimension(block.shape));
     // A vertex may be flat (a quad collapsed to a triangle works), but not folded.
-    for (std::size_t a = 0; a < nodes.size() && a < static_cast<std::size_t>(vertex_count(block.shape)); ++a)
+    for (std::size_t a = 0; a < nodes.size() && a < as_size(vertex_count(block.shape)); ++a)
       if (const double j = jacobian(mesh, block.shape, element, nodes[a].xi); j < -1e-10 * size)
         least = std::min(least, j);
     if (!(least > 1e-10 * size)) {

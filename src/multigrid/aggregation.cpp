@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "multigrid/aggregates.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -20,14 +21,10 @@ constexpr Index k_none = k_no_aggregate;
 constexpr double k_dependent = 1e-8;      ///< a mode that keeps less of its length depends on those before
 constexpr double k_no_stiffness = 1e-12;  ///< a coarse diagonal below this share of the mean is no mode
 
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Modified Gram-Schmidt, twice, on the rows of one aggregate: Q over the modes, R to the coarse level.
 /// Columns that depend on others become zero.
 void orthonormalise(std::vector<double>& q, std::size_t n_rows, int modes, double* r) {
-  const auto n = static_cast<std::size_t>(modes);
+  const auto n = as_size(modes);
   const auto dot = [&](std::size_t a, std::size_t b) {
     double sum = 0;
     for (std::size_t i = 0; i < n_rows; ++i) sum += q[i * n + a] * q[i * n + b];
@@ -53,31 +50,31 @@ void orthonormalise(std::vector<double>& q, std::size_t n_rows, int modes, doubl
 std::vector<float> tentative(const std::vector<Index>& of_row, Index n_aggregates, int size,
                              std::span<const double> near_null, int modes, std::span<const char> fixed,
                              std::vector<double>& coarse_modes) {
-  const auto n = static_cast<std::size_t>(modes), bs = static_cast<std::size_t>(size);
-  std::vector<std::int64_t> start(at(n_aggregates) + 1, 0);
+  const auto n = as_size(modes), bs = as_size(size);
+  std::vector<std::int64_t> start(as_size(n_aggregates) + 1, 0);
   for (const Index aggregate : of_row)
-    if (aggregate != k_none) ++start[at(aggregate) + 1];
+    if (aggregate != k_none) ++start[as_size(aggregate) + 1];
   for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  std::vector<Index> rows(at(start.back()));
+  std::vector<Index> rows(as_size(start.back()));
   std::vector<std::int64_t> next(start.begin(), start.end() - 1);
   for (std::size_t row = 0; row < of_row.size(); ++row)
-    if (of_row[row] != k_none) rows[at(next[at(of_row[row])]++)] = static_cast<Index>(row);
+    if (of_row[row] != k_none) rows[as_size(next[as_size(of_row[row])]++)] = as_index(row);
 
   // Each aggregate's rows of the modes become orthonormal; what was divided off is the mode of the
   // coarse level.
   std::vector<float> p(of_row.size() * bs * n);
-  coarse_modes.assign(at(n_aggregates) * n * n, 0.0);
+  coarse_modes.assign(as_size(n_aggregates) * n * n, 0.0);
   std::vector<double> q;
-  for (std::size_t aggregate = 0; aggregate < at(n_aggregates); ++aggregate) {
+  for (std::size_t aggregate = 0; aggregate < as_size(n_aggregates); ++aggregate) {
     const std::span<const Index> members(rows.data() + start[aggregate],
-                                         at(start[aggregate + 1] - start[aggregate]));
+                                         as_size(start[aggregate + 1] - start[aggregate]));
     q.clear();
     for (const Index row : members)
       q.insert(q.end(), near_null.begin() + row * size * modes, near_null.begin() + (row + 1) * size * modes);
     orthonormalise(q, members.size() * bs, modes, coarse_modes.data() + aggregate * n * n);
     for (std::size_t i = 0; i < members.size(); ++i)
       for (std::size_t k = 0; k < bs; ++k) {
-        const std::size_t row = at(members[i]) * bs + k;
+        const std::size_t row = as_size(members[i]) * bs + k;
         if (!fixed.empty() && fixed[row] != 0) continue;
         for (std::size_t m = 0; m < n; ++m) p[row * n + m] = static_cast<float>(q[(i * bs + k) * n + m]);
       }
@@ -88,18 +85,18 @@ std::vector<float> tentative(const std::vector<Index>& of_row, Index n_aggregate
 /// Blocks gathered by column: a row of a product while it is made.
 class RowSum {
  public:
-  RowSum(Index n_columns, int entries) : entries_(entries), place_(at(n_columns), k_none) {}
+  RowSum(Index n_columns, int entries) : entries_(entries), place_(as_size(n_columns), k_none) {}
   void clear() {
-    for (const Index column : columns_) place_[at(column)] = k_none;
+    for (const Index column : columns_) place_[as_size(column)] = k_none;
     columns_.clear();
     values_.clear();
   }
   double* block(Index column) {
-    Index& place = place_[at(column)];
+    Index& place = place_[as_size(column)];
     if (place == k_none) {
-      place = static_cast<Index>(columns_.size());
+      place = as_index(columns_.size());
       columns_.push_back(column);
-      values_.resize(values_.size() + static_cast<std::size_t>(entries_), 0.0);
+      values_.resize(values_.size() + as_size(entries_), 0.0);
     }
     return values_.data() + std::int64_t{place} * entries_;
   }
@@ -138,13 +135,13 @@ void reserve_smoothed(const MatrixView& a, const std::vector<Index>& of_row, Ind
   for (Index row = 0; row < a.n_rows(); ++row) {
     reached.clear();
     a.each(row, [&](Index j, std::int64_t, bool) {
-      if (of_row[at(j)] != k_none) reached.block(of_row[at(j)]);
+      if (of_row[as_size(j)] != k_none) reached.block(of_row[as_size(j)]);
     });
     n_slots += reached.columns().size();
   }
-  p.start.reserve(at(a.n_rows()) + 1);
+  p.start.reserve(as_size(a.n_rows()) + 1);
   p.column.reserve(n_slots);
-  p.value.reserve(n_slots * at(p.block_entries()) + PackedRows::k_overhang);
+  p.value.reserve(n_slots * as_size(p.block_entries()) + PackedRows::k_overhang);
 }
 
 template <int size, int modes>
@@ -159,11 +156,11 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
     // First the row of A T is summed, one block for each aggregate that the row reaches. Ghosts bring their
     // aggregate and their tentative values along.
     sum.clear();
-    const float* const own = tentative.data() + at(row) * k_entries;
+    const float* const own = tentative.data() + as_size(row) * k_entries;
     a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
-      if (of_row[at(j)] == k_none) return;
-      add_product<size, modes>(a.block(s), mirrored, tentative.data() + at(j) * k_entries,
-                               sum.block(of_row[at(j)]));
+      if (of_row[as_size(j)] == k_none) return;
+      add_product<size, modes>(a.block(s), mirrored, tentative.data() + as_size(j) * k_entries,
+                               sum.block(of_row[as_size(j)]));
     });
     // Columns come in the order of their numbers, so that the sum is the same whatever the order in which
     // they were met.
@@ -175,11 +172,11 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
       const double* const from = sum.block(column);
       p.column.push_back(column);
       for (int r = 0; r < size; ++r) {
-        const std::size_t entry = at(row) * size + static_cast<std::size_t>(r);
+        const std::size_t entry = as_size(row) * size + as_size(r);
         const bool zero = !fixed.empty() && fixed[entry] != 0;
         const double factor = zero ? 0.0 : omega * static_cast<double>(inverse_diagonal[entry]);
         for (int m = 0; m < modes; ++m) {
-          const double start = column == of_row[at(row)] ? static_cast<double>(own[r * modes + m]) : 0.0;
+          const double start = column == of_row[as_size(row)] ? static_cast<double>(own[r * modes + m]) : 0.0;
           p.value.push_back(static_cast<float>(start - factor * from[r * modes + m]));
         }
       }
@@ -193,38 +190,39 @@ void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_lo
                       BlockRows<double>& coarse) {
   // The coarse rows that every fine row reaches, and the fine rows of every coarse one: their union is its
   // pattern.
-  std::vector<std::int64_t> start_of_reach{0}, start_of_rows(at(n_local) + 1, 0);
+  std::vector<std::int64_t> start_of_reach{0}, start_of_rows(as_size(n_local) + 1, 0);
   std::vector<Index> reach;
   RowSum reached(n_local, 0);
   for (Index row = 0; row < a.n_rows(); ++row) {
     reached.clear();
     a.each(row, [&](Index j, std::int64_t, bool) {
-      for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t) reached.block(p.column[at(t)]);
+      for (std::int64_t t = p.start[as_size(j)]; t < p.start[as_size(j) + 1]; ++t)
+        reached.block(p.column[as_size(t)]);
     });
     reach.insert(reach.end(), reached.columns().begin(), reached.columns().end());
     start_of_reach.push_back(static_cast<std::int64_t>(reach.size()));
-    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t)
-      ++start_of_rows[at(p.column[at(t)]) + 1];
+    for (std::int64_t t = p.start[as_size(row)]; t < p.start[as_size(row) + 1]; ++t)
+      ++start_of_rows[as_size(p.column[as_size(t)]) + 1];
   }
   std::partial_sum(start_of_rows.begin(), start_of_rows.end(), start_of_rows.begin());
-  std::vector<Index> rows(at(start_of_rows.back()));
+  std::vector<Index> rows(as_size(start_of_rows.back()));
   std::vector<std::int64_t> next(start_of_rows.begin(), start_of_rows.end() - 1);
   for (Index row = 0; row < a.n_rows(); ++row)
-    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t)
-      rows[at(next[at(p.column[at(t)])]++)] = row;
-  for (std::size_t to = 0; to < at(n_local); ++to) {
+    for (std::int64_t t = p.start[as_size(row)]; t < p.start[as_size(row) + 1]; ++t)
+      rows[as_size(next[as_size(p.column[as_size(t)])]++)] = row;
+  for (std::size_t to = 0; to < as_size(n_local); ++to) {
     reached.clear();
     for (std::int64_t k = start_of_rows[to]; k < start_of_rows[to + 1]; ++k) {
-      const std::size_t row = at(rows[at(k)]);
+      const std::size_t row = as_size(rows[as_size(k)]);
       for (std::int64_t t = start_of_reach[row]; t < start_of_reach[row + 1]; ++t)
-        reached.block(reach[at(t)]);
+        reached.block(reach[as_size(t)]);
     }
     const std::size_t begin = coarse.column.size();
     coarse.column.insert(coarse.column.end(), reached.columns().begin(), reached.columns().end());
     std::sort(coarse.column.begin() + static_cast<std::ptrdiff_t>(begin), coarse.column.end());
     coarse.start.push_back(static_cast<std::int64_t>(coarse.column.size()));
   }
-  coarse.value.assign(coarse.column.size() * at(coarse.block_entries()), 0.0);
+  coarse.value.assign(coarse.column.size() * as_size(coarse.block_entries()), 0.0);
 }
 
 template <int size, int modes>
@@ -235,11 +233,11 @@ void galerkin(const MatrixView& a, const BlockRows<float>& p, Index n_local, Blo
   for (Index row = 0; row < a.n_rows(); ++row) {
     product.clear();
     a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
-      for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t)
-        add_product<size, modes>(a.block(s), mirrored, p.block(t), product.block(p.column[at(t)]));
+      for (std::int64_t t = p.start[as_size(j)]; t < p.start[as_size(j) + 1]; ++t)
+        add_product<size, modes>(a.block(s), mirrored, p.block(t), product.block(p.column[as_size(t)]));
     });
-    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
-      const std::size_t to = at(p.column[at(t)]);
+    for (std::int64_t t = p.start[as_size(row)]; t < p.start[as_size(row) + 1]; ++t) {
+      const std::size_t to = as_size(p.column[as_size(t)]);
       const auto begin = coarse.column.begin() + coarse.start[to],
                  end = coarse.column.begin() + coarse.start[to + 1];
       for (const Index column : product.columns()) {
@@ -252,11 +250,12 @@ void galerkin(const MatrixView& a, const BlockRows<float>& p, Index n_local, Blo
 
 /// A mode without stiffness, or one that its aggregate does not have, gets a diagonal of its own.
 void hold_empty_modes(BlockRows<double>& a) {
-  const auto n = static_cast<std::size_t>(a.rows);
+  const auto n = as_size(a.rows);
   std::vector<double*> diagonal;
   double sums[2] = {0, 0};
   for (Index row = 0; row < a.n_rows(); ++row) {
-    const auto begin = a.column.begin() + a.start[at(row)], end = a.column.begin() + a.start[at(row) + 1];
+    const auto begin = a.column.begin() + a.start[as_size(row)],
+               end = a.column.begin() + a.start[as_size(row) + 1];
     double* const block = a.block(std::lower_bound(begin, end, row) - a.column.begin());
     for (std::size_t m = 0; m < n; ++m) {
       diagonal.push_back(block + m * n + m);
@@ -277,7 +276,7 @@ class CoarseNumbers {
     const auto g = static_cast<GlobalIndex>(global);
     if (g == k_none) return k_none;
     if (g >= numbering_.first && g < numbering_.first + numbering_.n_owned)
-      return static_cast<Index>(g - numbering_.first);
+      return as_index(g - numbering_.first);
     const auto [place, is_new] = places_.emplace(g, numbering_.n_local());
     if (is_new) numbering_.ghosts.push_back(g);
     return place->second;
@@ -286,7 +285,7 @@ class CoarseNumbers {
     if (local == k_none) return k_none;
     return static_cast<double>(local < numbering_.n_owned
                                    ? numbering_.first + local
-                                   : numbering_.ghosts[at(local - numbering_.n_owned)]);
+                                   : numbering_.ghosts[as_size(local - numbering_.n_owned)]);
   }
 
  private:
@@ -298,8 +297,8 @@ class CoarseNumbers {
 template <class Number>
 void pack_row(const BlockRows<Number>& rows, Index row, const CoarseNumbers& numbers,
               std::vector<double>& to) {
-  for (std::int64_t t = rows.start[at(row)]; t < rows.start[at(row) + 1]; ++t) {
-    to.push_back(numbers.global(rows.column[at(t)]));
+  for (std::int64_t t = rows.start[as_size(row)]; t < rows.start[as_size(row) + 1]; ++t) {
+    to.push_back(numbers.global(rows.column[as_size(t)]));
     to.insert(to.end(), rows.block(t), rows.block(t) + rows.block_entries());
   }
 }
@@ -308,11 +307,11 @@ void pack_row(const BlockRows<Number>& rows, Index row, const CoarseNumbers& num
 void append_ghost_rows(const parallel::RowExchange& ghosts, Index n_local, CoarseNumbers& numbers,
                        BlockRows<float>& p) {
   const Index n_rows = p.n_rows();
-  const auto stride = at(p.block_entries()) + 1;
-  std::vector<std::vector<double>> rows(at(n_local - n_rows));
+  const auto stride = as_size(p.block_entries()) + 1;
+  std::vector<std::vector<double>> rows(as_size(n_local - n_rows));
   ghosts.update([&](Index row, std::vector<double>& to) { pack_row(p, row, numbers, to); },
                 [&](Index ghost, std::span<const double> row) {
-                  rows[at(ghost - n_rows)].assign(row.begin(), row.end());
+                  rows[as_size(ghost - n_rows)].assign(row.begin(), row.end());
                 });
   for (const std::vector<double>& row : rows) {
     for (std::size_t i = 0; i < row.size(); i += stride) {
@@ -330,11 +329,11 @@ void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, Bloc
     Index column;
     const double* values;
   };
-  const auto entries = at(coarse.block_entries());
-  std::vector<std::vector<CoarseBlock>> rows(at(numbering.n_owned));
+  const auto entries = as_size(coarse.block_entries());
+  std::vector<std::vector<CoarseBlock>> rows(as_size(numbering.n_owned));
   for (Index row = 0; row < numbering.n_owned; ++row)
-    for (std::int64_t t = coarse.start[at(row)]; t < coarse.start[at(row) + 1]; ++t)
-      rows[at(row)].push_back({coarse.column[at(t)], coarse.block(t)});
+    for (std::int64_t t = coarse.start[as_size(row)]; t < coarse.start[as_size(row) + 1]; ++t)
+      rows[as_size(row)].push_back({coarse.column[as_size(t)], coarse.block(t)});
   std::vector<std::pair<Index, std::vector<double>>> from_others;
   const parallel::RowExchange exchange(numbering.n_owned, numbering.first, numbering.ghosts);
   exchange.give_back([&](Index row, std::vector<double>& to) { pack_row(coarse, row, numbers, to); },
@@ -343,7 +342,7 @@ void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, Bloc
                      });
   for (const auto& [row, values] : from_others)
     for (std::size_t i = 0; i < values.size(); i += entries + 1)
-      rows[at(row)].push_back({numbers.local(values[i]), values.data() + i + 1});
+      rows[as_size(row)].push_back({numbers.local(values[i]), values.data() + i + 1});
 
   BlockRows<double> sum;
   sum.rows = coarse.rows;
@@ -381,7 +380,7 @@ void make_level(const MatrixView& a, const parallel::RowExchange& ghosts, Tentat
   smooth<size, modes>(a, start.of_row, next.numbering.n_local(), start.values, fixed, inverse_diagonal, omega,
                       p);
   std::vector<float>().swap(start.values);
-  append_ghost_rows(ghosts, static_cast<Index>(start.of_row.size()), numbers, p);
+  append_ghost_rows(ghosts, as_index(start.of_row.size()), numbers, p);
   galerkin_pattern(a, p, next.numbering.n_local(), next.matrix);
   galerkin<size, modes>(a, p, next.numbering.n_local(), next.matrix);
   sum_over_processes(numbers, next.numbering, next.matrix);
@@ -390,14 +389,14 @@ void make_level(const MatrixView& a, const parallel::RowExchange& ghosts, Tentat
 }  // namespace
 
 std::vector<float> inverse_diagonal(const MatrixView& a) {
-  const auto n = static_cast<std::size_t>(a.size);
-  std::vector<float> inverse(at(a.n_rows()) * n, 1.0F);
+  const auto n = as_size(a.size);
+  std::vector<float> inverse(as_size(a.n_rows()) * n, 1.0F);
   for (Index row = 0; row < a.n_rows(); ++row)
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
-      if (a.column[at(s)] != row) continue;
+    for (std::int64_t s = a.start[as_size(row)]; s < a.start[as_size(row) + 1]; ++s) {
+      if (a.column[as_size(s)] != row) continue;
       for (std::size_t r = 0; r < n; ++r)
         if (const double d = a.block(s)[r * n + r]; d != 0)
-          inverse[at(row) * n + r] = static_cast<float>(1.0 / d);
+          inverse[as_size(row) * n + r] = static_cast<float>(1.0 / d);
     }
   return inverse;
 }
@@ -422,16 +421,16 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const parall
   std::vector<double>().swap(near_null);
   CoarseNumbers numbers(next.numbering);
   // Ghost rows need the aggregate and the tentative values of their owners, because A reaches them.
-  start.of_row.resize(at(numbering.n_local()));
-  start.values.resize(at(numbering.n_local()) * at(entries));
+  start.of_row.resize(as_size(numbering.n_local()));
+  start.values.resize(as_size(numbering.n_local()) * as_size(entries));
   ghosts.update(
       [&](Index row, std::vector<double>& to) {
         const float* const block = start.values.data() + std::int64_t{row} * entries;
-        to.push_back(numbers.global(start.of_row[at(row)]));
+        to.push_back(numbers.global(start.of_row[as_size(row)]));
         to.insert(to.end(), block, block + entries);
       },
       [&](Index ghost, std::span<const double> row) {
-        start.of_row[at(ghost)] = numbers.local(row[0]);
+        start.of_row[as_size(ghost)] = numbers.local(row[0]);
         std::transform(row.begin() + 1, row.end(), start.values.begin() + std::int64_t{ghost} * entries,
                        [](double v) { return static_cast<float>(v); });
       });

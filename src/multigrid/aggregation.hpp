@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "multigrid/packed_rows.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/row_exchange.hpp"
 
 namespace solidus::multigrid {
@@ -26,7 +27,7 @@ struct Numbering {
   Index n_owned = 0;
   GlobalIndex first = 0;
   std::vector<GlobalIndex> ghosts;  ///< [local − n_owned]
-  Index n_local() const { return n_owned + static_cast<Index>(ghosts.size()); }
+  Index n_local() const { return n_owned + as_index(ghosts.size()); }
 };
 
 /// Result of the aggregation of one level: the interpolation, and matrix, numbering and near-null space of

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::multigrid {
@@ -21,9 +22,8 @@ class LowerPart {
   LowerPart(std::span<const std::int64_t> start, std::span<const Index> column);
   /// Returns the blocks of a block row, columns rising.
   std::span<const MirroredBlock> row(Index row) const {
-    const auto i = static_cast<std::size_t>(row);
-    return std::span(blocks_).subspan(static_cast<std::size_t>(start_[i]),
-                                      static_cast<std::size_t>(start_[i + 1] - start_[i]));
+    const auto i = as_size(row);
+    return std::span(blocks_).subspan(as_size(start_[i]), as_size(start_[i + 1] - start_[i]));
   }
 
  private:
@@ -40,10 +40,10 @@ struct MatrixView {
   /// The blocks left of the diagonal, if rows are stored from their diagonal on; null: rows are stored whole.
   const LowerPart* lower = nullptr;
 
-  Index n_rows() const { return static_cast<Index>(start.size()) - 1; }
+  Index n_rows() const { return as_index(start.size()) - 1; }
   const double* block(std::int64_t slot) const { return blocks + slot * size * size; }
-  std::int64_t begin(Index row) const { return start[static_cast<std::size_t>(row)]; }
-  std::int64_t end(Index row) const { return start[static_cast<std::size_t>(row) + 1]; }
+  std::int64_t begin(Index row) const { return start[as_size(row)]; }
+  std::int64_t end(Index row) const { return start[as_size(row) + 1]; }
 
   /// Calls f(column, slot, mirrored) for all blocks of a row, columns rising; of those that are mirrored the
   /// slot has the transpose.
@@ -52,7 +52,7 @@ struct MatrixView {
     if (lower != nullptr)
       for (const LowerPart::MirroredBlock& block : lower->row(row))
         f(block.column, begin(block.column) + block.place, true);
-    for (std::int64_t s = begin(row); s < end(row); ++s) f(column[static_cast<std::size_t>(s)], s, false);
+    for (std::int64_t s = begin(row); s < end(row); ++s) f(column[as_size(s)], s, false);
   }
 };
 

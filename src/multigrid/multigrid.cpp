@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
 #include "parallel/petsc_options.hpp"
@@ -28,10 +29,6 @@ constexpr double k_slow = 0.7;  ///< rows left by a coarsening that is not worth
 constexpr int k_long_sweeps = 40;
 constexpr double k_long_interval = 1.0 / 400;
 constexpr int k_most_levels = 20;
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The largest eigenvalue of a symmetric tridiagonal matrix, by bisection on Sturm's sequence.
 double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
@@ -79,7 +76,7 @@ struct Multigrid::Level {
   std::vector<float> x, b, r;  ///< [local row × size]
   std::vector<float> d;        ///< [owned row × size]
 
-  std::size_t n_owned() const { return at(numbering.n_owned) * at(size); }
+  std::size_t n_owned() const { return as_size(numbering.n_owned) * as_size(size); }
   void estimate_largest();
   /// @param sweeps, interval  of Chebyshev's iteration
   void smooth(bool from_zero, int sweeps = k_sweeps, double interval = k_interval);
@@ -189,10 +186,10 @@ Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbe
   // PETSc wants to know beforehand how many blocks a row has among the columns of this process and among
   // those of others.
   const auto n = static_cast<PetscInt>(a.n_rows() * a.rows);
-  std::vector<PetscInt> owned(at(a.n_rows()), 0), ghosts(at(a.n_rows()), 0);  // [block row], blocks
+  std::vector<PetscInt> owned(as_size(a.n_rows()), 0), ghosts(as_size(a.n_rows()), 0);  // [block row], blocks
   for (Index row = 0; row < a.n_rows(); ++row)
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s)
-      ++(a.column[at(s)] < numbering.n_owned ? owned : ghosts)[at(row)];
+    for (std::int64_t s = a.start[as_size(row)]; s < a.start[as_size(row) + 1]; ++s)
+      ++(a.column[as_size(s)] < numbering.n_owned ? owned : ghosts)[as_size(row)];
   petsc::check(MatCreate(PETSC_COMM_WORLD, matrix.out()), "MatCreate");
   petsc::check(MatSetSizes(matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
   petsc::check(MatSetType(matrix, MATAIJ), "MatSetType");
@@ -201,12 +198,12 @@ Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbe
   // Blocks are entered by global numbers: owned rows from the first of this process on, ghosts by the list of
   // their owners.
   for (Index row = 0; row < a.n_rows(); ++row)
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
-      const Index column = a.column[at(s)];
+    for (std::int64_t s = a.start[as_size(row)]; s < a.start[as_size(row) + 1]; ++s) {
+      const Index column = a.column[as_size(s)];
       const auto i = static_cast<PetscInt>(numbering.first + row);
       const auto j = static_cast<PetscInt>(column < numbering.n_owned
                                                ? numbering.first + column
-                                               : numbering.ghosts[at(column - numbering.n_owned)]);
+                                               : numbering.ghosts[as_size(column - numbering.n_owned)]);
       petsc::check(MatSetValuesBlocked(matrix, 1, &i, 1, &j, a.block(s), INSERT_VALUES),
                    "MatSetValuesBlocked");
     }
@@ -264,8 +261,8 @@ void Multigrid::set_up(const MatrixView& a, Numbering numbering, std::span<const
 void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<const char> fixed, int modes,
                           std::vector<double> near_null) {
   // The level packs its matrix and works on vectors of single precision.
-  const std::size_t n_local = at(numbering.n_local()) * at(a.size),
-                    n_owned = at(numbering.n_owned) * at(a.size);
+  const std::size_t n_local = as_size(numbering.n_local()) * as_size(a.size),
+                    n_owned = as_size(numbering.n_owned) * as_size(a.size);
   parallel::GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);
   parallel::RowExchange rows(numbering.n_owned, numbering.first, numbering.ghosts);
   const std::size_t index = levels_.size();
@@ -328,7 +325,7 @@ void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, in
   // The coarsest level is factorised by every process alike.
   coarsest_rows_ = after;
   if (after > 0) coarsest_ = std::make_unique<Coarsest>(next.matrix, next.numbering);
-  const std::size_t n = at(next.numbering.n_local()) * at(next.modes);
+  const std::size_t n = as_size(next.numbering.n_local()) * as_size(next.modes);
   Level last;
   last.size = next.modes;
   last.numbering = std::move(next.numbering);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "multigrid/symmetric_product.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/large_pages.hpp"
 
 namespace solidus::multigrid {
@@ -103,11 +104,11 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
   }
   // Values are copied in single precision, into large pages because products stream through them. Behind the
   // last block some numbers are left free: vector loads may read beyond it.
-  const auto entries = static_cast<std::size_t>(a.size * a.size);
-  assign_in_large_pages(value_, static_cast<std::size_t>(start_.back()) * entries + k_overhang, 0.0F);
+  const auto entries = as_size(a.size * a.size);
+  assign_in_large_pages(value_, as_size(start_.back()) * entries + k_overhang, 0.0F);
   float* to = value_.data();
   for (Index row = 0; row < a.n_rows(); ++row) {
-    const std::int64_t n = start_[static_cast<std::size_t>(row) + 1] - start_[static_cast<std::size_t>(row)];
+    const std::int64_t n = start_[as_size(row) + 1] - start_[as_size(row)];
     // A symmetric row begins with its diagonal block, so only the last n of a whole row are taken. Blocks of
     // a row that is not symmetric are stored by columns, which is how the product reads them.
     for (std::int64_t s = a.end(row) - n; s < a.end(row); ++s) {
@@ -127,26 +128,26 @@ void PackedRows::copy_upper_pattern(const MatrixView& a) {
   std::vector<std::int64_t> diagonal(a.start.size() - 1);
   for (Index row = 0; row < a.n_rows(); ++row) {
     const auto first = a.column.begin() + a.begin(row), last = a.column.begin() + a.end(row);
-    diagonal[static_cast<std::size_t>(row)] = std::lower_bound(first, last, row) - a.column.begin();
-    own_start_.push_back(own_start_.back() + a.end(row) - diagonal[static_cast<std::size_t>(row)]);
+    diagonal[as_size(row)] = std::lower_bound(first, last, row) - a.column.begin();
+    own_start_.push_back(own_start_.back() + a.end(row) - diagonal[as_size(row)]);
   }
-  own_column_.reserve(static_cast<std::size_t>(own_start_.back()));
+  own_column_.reserve(as_size(own_start_.back()));
   for (Index row = 0; row < a.n_rows(); ++row)
-    own_column_.insert(own_column_.end(), a.column.begin() + diagonal[static_cast<std::size_t>(row)],
+    own_column_.insert(own_column_.end(), a.column.begin() + diagonal[as_size(row)],
                        a.column.begin() + a.end(row));
 }
 
 PackedRows::PackedRows(BlockRows<float> from, Index n_rows)
     : rows_(from.rows), columns_(from.columns), own_start_(std::move(from.start)) {
   // Rows of ghosts are dropped: their products belong to other processes.
-  own_start_.resize(static_cast<std::size_t>(n_rows) + 1);
-  const auto n_slots = static_cast<std::size_t>(own_start_.back());
+  own_start_.resize(as_size(n_rows) + 1);
+  const auto n_slots = as_size(own_start_.back());
   own_column_ = std::move(from.column);
   own_column_.resize(n_slots);
   start_ = own_start_;
   column_ = own_column_;
   value_ = std::move(from.value);
-  const auto entries = static_cast<std::size_t>(rows_ * columns_);
+  const auto entries = as_size(rows_ * columns_);
   value_.reserve(n_slots * entries + k_overhang);  // not more, as growing would
   value_.resize(n_slots * entries + k_overhang);
   // Block by block, each in its place.
@@ -155,7 +156,7 @@ PackedRows::PackedRows(BlockRows<float> from, Index n_rows)
   for (std::size_t s = 0; s < n_slots; ++s) {
     std::copy_n(to, entries, block.begin());
     for (int c = 0; c < columns_; ++c)
-      for (int r = 0; r < rows_; ++r) *to++ = block[static_cast<std::size_t>(r * columns_ + c)];
+      for (int r = 0; r < rows_; ++r) *to++ = block[as_size(r * columns_ + c)];
   }
 }
 

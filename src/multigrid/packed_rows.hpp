@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "multigrid/matrix_view.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::multigrid {
@@ -24,7 +25,7 @@ struct BlockRows {
   std::vector<std::int64_t> start{0};  ///< [block row] into `column`; one more at the end
   std::vector<Index> column;           ///< [slot] block column
   std::vector<Number> value;           ///< [slot][row][column]
-  Index n_rows() const { return static_cast<Index>(start.size()) - 1; }
+  Index n_rows() const { return as_index(start.size()) - 1; }
   std::int64_t block_entries() const { return std::int64_t{rows} * columns; }
   Number* block(std::int64_t slot) { return value.data() + slot * block_entries(); }
   const Number* block(std::int64_t slot) const { return value.data() + slot * block_entries(); }

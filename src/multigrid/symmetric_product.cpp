@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "multigrid/packed_rows.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::multigrid {
 
@@ -32,10 +33,10 @@ void multiply_registers(std::span<const std::int64_t> start, const Index* column
                         const Number* x, Number* y) {
   using Type = typename Register<Number, size>::Type;
   constexpr std::ptrdiff_t lanes = Register<Number, size>::lanes;
-  const auto n = static_cast<Index>(start.size()) - 1;
+  const auto n = as_index(start.size()) - 1;
   for (Index row = 0; row < n; ++row) {
-    std::int64_t s = start[static_cast<std::size_t>(row)];
-    const std::int64_t end = start[static_cast<std::size_t>(row) + 1];
+    std::int64_t s = start[as_size(row)];
+    const std::int64_t end = start[as_size(row) + 1];
     const Number* a = blocks + s * size * size;
     // The row's own x as one register, and each of its entries spread over a register.
     const Type own = load<Type>(x + row * lanes);
@@ -88,7 +89,7 @@ void multiply_symmetric(int size, std::span<const std::int64_t> start, const Ind
       std::fill_n(y, n * rows, Number(0));
       multiply_registers<Number, rows>(start, column, blocks, x, y);
     } else {
-      scratch.resize(static_cast<std::size_t>((n_local + n) * lanes));
+      scratch.resize(as_size((n_local + n) * lanes));
       Number* const wide_x = scratch.data();
       Number* const wide_y = wide_x + n_local * lanes;
       for (std::ptrdiff_t i = 0; i < n_local; ++i)

@@ -11,6 +11,7 @@
 #include "mesh/surfaces/faces.hpp"
 #include "mesh/surfaces/skin.hpp"
 #include "mesh/surfaces/smooth_parts.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::new_case {
 
@@ -25,7 +26,7 @@ constexpr double k_viscosity = 0.80e-6;  ///< ν of water at 30 °C [m²/s]
 std::vector<const SkinFace*> faces_in(const mesh::RawGroup& group, const std::vector<SkinFace>& skin) {
   std::unordered_set<mesh::FaceKey, mesh::FaceKeyHash> keys;
   for (const mesh::RawBlock& block : group.blocks) {
-    const auto nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto nodes = as_size(mesh::node_count(block.shape));
     for (std::size_t e = 0; e < block.nodes.size(); e += nodes)
       keys.insert(mesh::face_key(&block.nodes[e], mesh::vertex_count(block.shape)));
   }

@@ -11,6 +11,7 @@
 #include "new_case/feeders_file.hpp"
 #include "new_case/riser_choice.hpp"
 #include "new_case/rounding.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::new_case {
 
@@ -80,7 +81,7 @@ class Choice {
   /// thickest place.
   void fold(mesh::Point& x, double inside = 1e-3) const {
     if (!draft_.symmetry) return;
-    double& c = x[static_cast<std::size_t>(draft_.symmetry->axis)];
+    double& c = x[as_size(draft_.symmetry->axis)];
     const double at = draft_.symmetry->at, near = 0.1 * thickest_;
     if (c > at) c = 2 * at - c;
     // A place that is nearly on the plane is moved close to it, so that a probe and its image are not two
@@ -90,7 +91,7 @@ class Choice {
 
   void choose_symmetry() {
     // The plane lies in the middle of the part along the axis.
-    const auto axis = static_cast<std::size_t>(options_.symmetry[0] - 'x');
+    const auto axis = as_size(options_.symmetry[0] - 'x');
     const double middle = 0.5 * (part_.low[axis] + part_.high[axis]);
     // The box is that of the facets of a coarse mesh, and so is the centre of its bodies: the CAD kernel has
     // the centre of the surfaces themselves, in which the plane lies.
@@ -166,7 +167,7 @@ class Choice {
         of_wall(shell > 0 ? k_room_of_shell * shell : std::max(least, process_.walls * thickest_));
     mould.walls.fill(wall);
     // At the plane of symmetry and at an open top there is no wall, because the mould ends there.
-    if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
+    if (draft_.symmetry) mould.walls[2 * as_size(draft_.symmetry->axis) + 1] = 0;
     if (riser_on_top() || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
     DraftBody& body = draft_.bodies.emplace_back();
     body.name = body.group = process_.mould == cases::Role::die ? "die" : "mould";

@@ -12,6 +12,7 @@
 #include "mesh/making/casting_geometry.hpp"
 #include "new_case/casting_processes.hpp"
 #include "new_case/rounding.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::new_case {
 
@@ -77,7 +78,7 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
 /// Distance of a riser from the plane of symmetry [m]; none where there is no plane.
 std::optional<double> beside_plane(const Draft& draft, const DraftRiser& riser) {
   if (!draft.symmetry) return {};
-  return draft.symmetry->at - riser.foot[static_cast<std::size_t>(draft.symmetry->axis)];
+  return draft.symmetry->at - riser.foot[as_size(draft.symmetry->axis)];
 }
 
 /// A note where half of the part has its first riser next to the plane: the whole part then has two such.

@@ -8,6 +8,7 @@
 
 #include "mesh/making/metal_grid.hpp"
 #include "new_case/riser_standing.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::new_case {
 
@@ -119,7 +120,7 @@ std::vector<Group> Choice::groups() const {
   for (InscribedSphere place : part_.spheres) {
     // Of a half, what lies beyond the plane is the image of what lies before it.
     if (symmetry_) {
-      double& x = place.centre[static_cast<std::size_t>(symmetry_->axis)];
+      double& x = place.centre[as_size(symmetry_->axis)];
       x = std::min(x, 2 * symmetry_->at - x);
     }
     // A place joins the group from whose thickest place a way leads that is nearly as wide as itself; without
@@ -187,7 +188,7 @@ void Choice::put_on(const Group& group) {
   // With a plane of symmetry a riser stands on the plane where a place of the group there is nearly as thick,
   // or where it would touch its image next to the plane.
   constexpr std::size_t k_most = 8;
-  const auto axis = static_cast<std::size_t>(symmetry_->axis);
+  const auto axis = as_size(symmetry_->axis);
   std::vector<InscribedSphere> on_plane = mesh::inscribed_spheres(
       part_.mesh, part_.metal, k_most, mesh::HalfSpace{symmetry_->axis, symmetry_->at});
   std::erase_if(on_plane, [&](const InscribedSphere& s) {
@@ -209,7 +210,7 @@ std::vector<mesh::WayStart> Choice::feet() const {
   if (!symmetry_) return starts;
   for (const DraftRiser& r : choice_.risers) {
     mesh::WayStart image{r.foot, 0.5 * r.diameter, 0.25 * r.diameter};
-    double& x = image.centre[static_cast<std::size_t>(symmetry_->axis)];
+    double& x = image.centre[as_size(symmetry_->axis)];
     x = 2 * symmetry_->at - x;
     starts.push_back(image);
   }
@@ -259,7 +260,7 @@ void Choice::give_metal() {
   for (std::size_t c = 0; c < grid_.size(); ++c) {
     if (ways.from[c] < 0) continue;
     ++counted;
-    const auto from = static_cast<std::size_t>(ways.from[c]);
+    const auto from = as_size(ways.from[c]);
     if (from < n) ++metal[from];
   }
   for (std::size_t i = 0; i < n; ++i) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "new_case/rounding.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::new_case {
 
@@ -27,8 +28,8 @@ std::optional<mesh::Point> middle_of_ground(const mesh::ViewFromAbove& view, con
   };
   // From the place over neighbouring cells of the same height.
   std::vector<int> ground = {k_half * k_wide + k_half};
-  std::vector<char> seen(static_cast<std::size_t>(k_wide) * k_wide, 0);
-  seen[static_cast<std::size_t>(ground.front())] = 1;
+  std::vector<char> seen(as_size(k_wide) * k_wide, 0);
+  seen[as_size(ground.front())] = 1;
   double x = 0, y = 0;
   bool ends = true;
   for (std::size_t n = 0; n < ground.size(); ++n) {
@@ -41,8 +42,8 @@ std::optional<mesh::Point> middle_of_ground(const mesh::ViewFromAbove& view, con
         continue;
       }
       const int next = ni * k_wide + nj;
-      if (seen[static_cast<std::size_t>(next)] != 0) continue;
-      seen[static_cast<std::size_t>(next)] = 1;
+      if (seen[as_size(next)] != 0) continue;
+      seen[as_size(next)] = 1;
       if (std::abs(view.top(at(next)) - place[2]) < k_level * diameter) ground.push_back(next);
     }
   }

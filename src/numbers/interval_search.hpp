@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 
 class IntervalSearch {
@@ -31,7 +33,7 @@ class IntervalSearch {
     const std::size_t b = bucket(x);
     const auto begin = starts_.begin() + begin_[b], end = starts_.begin() + begin_[b + 1];
     const auto above = std::upper_bound(begin, end, x);
-    return above == starts_.begin() ? 0 : static_cast<std::size_t>(above - starts_.begin()) - 1;
+    return above == starts_.begin() ? 0 : as_size(above - starts_.begin()) - 1;
   }
 
  private:

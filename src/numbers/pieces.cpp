@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 namespace {
 
@@ -34,7 +36,7 @@ Pieces::Pieces(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
     const auto piece_at = [&](double place) {
       const auto next =
           std::upper_bound(start_.begin() + 1, start_.end(), start_.front() + place / bucket_scale_);
-      return static_cast<std::size_t>(next - start_.begin()) - 1;
+      return as_size(next - start_.begin()) - 1;
     };
     const std::size_t first = piece_at(b - 0.51), last = piece_at(b + 0.51);
     bucket_.push_back(static_cast<std::uint32_t>(first));

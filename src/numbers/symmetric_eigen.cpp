@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 
 namespace {
@@ -78,7 +80,7 @@ void find_symmetric_eigen(std::span<double> matrix, std::span<double> values, st
   // the vectors with them.
   for (std::size_t i = 0; i < n; ++i) values[i] = m.at(i, i);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto least = static_cast<std::size_t>(
+    const auto least = as_size(
         std::min_element(values.begin() + static_cast<std::ptrdiff_t>(i), values.end()) - values.begin());
     if (least == i) continue;
     std::swap(values[i], values[least]);

@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 
 // Always inlined, and written as one initialisation: in a long constitutive update compilers otherwise call
@@ -17,8 +19,8 @@ template <class T>
 struct Sym {
   std::array<T, 6> c{};
 
-  T& operator[](int i) { return c[static_cast<std::size_t>(i)]; }
-  const T& operator[](int i) const { return c[static_cast<std::size_t>(i)]; }
+  T& operator[](int i) { return c[as_size(i)]; }
+  const T& operator[](int i) const { return c[as_size(i)]; }
 
   static Sym identity() {
     Sym r;
@@ -86,8 +88,8 @@ T von_mises(const Sym<T>& stress) {
 template <class T>
 struct Sym4 {
   std::array<std::array<T, 6>, 6> c{};
-  std::array<T, 6>& operator[](int i) { return c[static_cast<std::size_t>(i)]; }
-  const std::array<T, 6>& operator[](int i) const { return c[static_cast<std::size_t>(i)]; }
+  std::array<T, 6>& operator[](int i) { return c[as_size(i)]; }
+  const std::array<T, 6>& operator[](int i) const { return c[as_size(i)]; }
 
   /// κ 1⊗1 + 2μ (I − 1/3 1⊗1).
   static Sym4 isotropic(const T& bulk, const T& twice_shear) {

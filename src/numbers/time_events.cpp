@@ -7,6 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 
 namespace {
@@ -96,8 +98,7 @@ std::vector<double> corners(const Table& table, double from, double to, double t
   points.push_back({to, table.value(to)});
   std::priority_queue<Stretch> open;
   open.push(stretch(points, 0, points.size() - 1));
-  while (!open.empty() && open.top().distance > tolerance &&
-         chosen.size() < static_cast<std::size_t>(k_most_events)) {
+  while (!open.empty() && open.top().distance > tolerance && chosen.size() < as_size(k_most_events)) {
     const Stretch s = open.top();
     open.pop();
     chosen.push_back(points[s.farthest].x);
@@ -139,7 +140,7 @@ std::vector<TimeEvent> breaks(const std::function<double(double)>& f, double fro
     if (!zoom.find_jump()) continue;
     jumps[i] = 1;
     add(zoom.high(), true);
-    if (found.size() > static_cast<std::size_t>(k_most_events)) return {};
+    if (found.size() > as_size(k_most_events)) return {};
   }
   for (std::size_t i = 1; i < n; ++i) {
     if (jumps[i - 1] != 0 || jumps[i] != 0) continue;
@@ -151,7 +152,7 @@ std::vector<TimeEvent> breaks(const std::function<double(double)>& f, double fro
       continue;
     Zoom zoom(f, at(i - 1), at(i + 1));
     if (zoom.find_bend()) add(zoom.middle(), false);
-    if (found.size() > static_cast<std::size_t>(k_most_events)) return {};
+    if (found.size() > as_size(k_most_events)) return {};
   }
   return found;
 }

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::parallel {
 
 std::vector<Neighbour> find_neighbours(Index n_owned, GlobalIndex first_owned,
@@ -19,16 +21,16 @@ std::vector<Neighbour> find_neighbours(Index n_owned, GlobalIndex first_owned,
   std::vector<Neighbour> neighbours;
   if (size == 1) return neighbours;
 
-  std::vector<GlobalIndex> first(static_cast<std::size_t>(size));
+  std::vector<GlobalIndex> first(as_size(size));
   MPI_Allgather(&first_owned, 1, MPI_INT64_T, first.data(), 1, MPI_INT64_T, comm);
 
   // Ghosts by owner, then tell every owner which of its nodes are wanted.
-  std::vector<std::vector<Index>> wanted(static_cast<std::size_t>(size));
+  std::vector<std::vector<Index>> wanted(as_size(size));
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
     // A process without nodes shares its start with the next one: the last start not above the node is the
     // owner's.
     const auto owner = std::upper_bound(first.begin(), first.end(), ghosts[i]);
-    wanted[static_cast<std::size_t>(owner - first.begin() - 1)].push_back(n_owned + static_cast<Index>(i));
+    wanted[as_size(owner - first.begin() - 1)].push_back(n_owned + as_index(i));
   }
   std::vector<int> n_wanted(wanted.size()), n_asked(wanted.size());
   std::transform(wanted.begin(), wanted.end(), n_wanted.begin(),
@@ -41,20 +43,20 @@ std::vector<Neighbour> find_neighbours(Index n_owned, GlobalIndex first_owned,
     return start;
   };
   const std::vector<int> start_wanted = starts(n_wanted), start_asked = starts(n_asked);
-  std::vector<GlobalIndex> ask, asked(static_cast<std::size_t>(start_asked.back() + n_asked.back()));
+  std::vector<GlobalIndex> ask, asked(as_size(start_asked.back() + n_asked.back()));
   for (const auto& nodes : wanted)
-    for (Index node : nodes) ask.push_back(ghosts[static_cast<std::size_t>(node - n_owned)]);
+    for (Index node : nodes) ask.push_back(ghosts[as_size(node - n_owned)]);
   MPI_Alltoallv(ask.data(), n_wanted.data(), start_wanted.data(), MPI_INT64_T, asked.data(), n_asked.data(),
                 start_asked.data(), MPI_INT64_T, comm);
 
   for (int rank = 0; rank < size; ++rank) {
-    const auto p = static_cast<std::size_t>(rank);
+    const auto p = as_size(rank);
     if (n_wanted[p] == 0 && n_asked[p] == 0) continue;
     Neighbour neighbour{rank, {}, std::move(wanted[p])};
     for (int i = 0; i < n_asked[p]; ++i) {
-      const GlobalIndex local = asked[static_cast<std::size_t>(start_asked[p] + i)] - first_owned;
+      const GlobalIndex local = asked[as_size(start_asked[p] + i)] - first_owned;
       assert(local >= 0 && local < n_owned);
-      neighbour.send.push_back(static_cast<Index>(local));
+      neighbour.send.push_back(as_index(local));
     }
     neighbours.push_back(std::move(neighbour));
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/neighbours.hpp"
 
 namespace solidus::parallel {
@@ -44,9 +45,9 @@ struct GhostExchange::Implementation {
 };
 
 GhostExchange::GhostExchange(const mesh::Mesh& mesh)
-    : GhostExchange(mesh.n_owned_nodes, mesh.first_owned,
-                    mesh.global_node.part(static_cast<std::size_t>(mesh.n_owned_nodes),
-                                          static_cast<std::size_t>(mesh.n_nodes() - mesh.n_owned_nodes))) {}
+    : GhostExchange(
+          mesh.n_owned_nodes, mesh.first_owned,
+          mesh.global_node.part(as_size(mesh.n_owned_nodes), as_size(mesh.n_nodes() - mesh.n_owned_nodes))) {}
 
 GhostExchange::GhostExchange(Index n_owned, GlobalIndex first_owned, std::span<const GlobalIndex> ghosts)
     : n_owned_nodes_(n_owned), implementation_(std::make_unique<Implementation>()) {
@@ -67,7 +68,7 @@ void GhostExchange::exchange(std::span<Number> values, int components) const {
   // The buffers are kept between calls, and grow only where more components are exchanged than before.
   Implementation& my = *implementation_;
   if (my.neighbours.empty()) return;
-  const std::size_t n_bytes = static_cast<std::size_t>(components) * sizeof(Number);
+  const std::size_t n_bytes = as_size(components) * sizeof(Number);
   my.send_buffer.resize(my.n_send * n_bytes);
   my.receive_buffer.resize(my.n_receive * n_bytes);
   char* const fields = reinterpret_cast<char*>(values.data());
@@ -86,8 +87,7 @@ void GhostExchange::exchange(std::span<Number> values, int components) const {
   char* from = my.send_buffer.data();
   for (const auto& neighbour : my.neighbours) {
     char* const start = from;
-    for (Index node : neighbour.send)
-      from = std::copy_n(fields + static_cast<std::size_t>(node) * n_bytes, n_bytes, from);
+    for (Index node : neighbour.send) from = std::copy_n(fields + as_size(node) * n_bytes, n_bytes, from);
     MPI_Isend(start, static_cast<int>(from - start), MPI_BYTE, neighbour.rank, 0, PETSC_COMM_WORLD,
               &my.requests[request++]);
   }
@@ -97,7 +97,7 @@ void GhostExchange::exchange(std::span<Number> values, int components) const {
   const char* in = my.receive_buffer.data();
   for (const auto& neighbour : my.neighbours)
     for (Index node : neighbour.receive) {
-      std::copy_n(in, n_bytes, fields + static_cast<std::size_t>(node) * n_bytes);
+      std::copy_n(in, n_bytes, fields + as_size(node) * n_bytes);
       in += n_bytes;
     }
 }

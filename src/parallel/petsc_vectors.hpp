@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/petsc_handles.hpp"
 
 namespace solidus::petsc {
@@ -34,8 +35,7 @@ void with_values(Vec x, Vec y, Function&& f) {
   double* to = nullptr;
   check(VecGetArrayRead(x, &from), "VecGetArrayRead");
   check(VecGetArray(y, &to), "VecGetArray");
-  f(std::span<const double>(from, static_cast<std::size_t>(n)),
-    std::span<double>(to, static_cast<std::size_t>(m)));
+  f(std::span<const double>(from, as_size(n)), std::span<double>(to, as_size(m)));
   check(VecRestoreArray(y, &to), "VecRestoreArray");
   check(VecRestoreArrayRead(x, &from), "VecRestoreArrayRead");
 }

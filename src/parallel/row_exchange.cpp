@@ -4,11 +4,13 @@
 #include <mpi.h>
 #include <petscsys.h>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::parallel {
 
 void RowExchange::add_to_owners(std::span<float> values, int components) const {
   if (neighbours_.empty()) return;
-  const auto n = static_cast<std::size_t>(components);
+  const auto n = as_size(components);
   // The way is the reverse of an update of ghosts: what is received there is sent here. First the sizes of
   // both buffers are counted.
   std::size_t n_in = 0, n_out = 0, request = 0;
@@ -42,7 +44,7 @@ void RowExchange::add_to_owners(std::span<float> values, int components) const {
   // the same bits in every run.
   for (const auto& neighbour : neighbours_)
     for (const Index node : neighbour.send)
-      for (std::size_t k = 0; k < n; ++k) values[static_cast<std::size_t>(node) * n + k] += *from++;
+      for (std::size_t k = 0; k < n; ++k) values[as_size(node) * n + k] += *from++;
 }
 
 void RowExchange::exchange(bool to_owners, const Pack& pack, const Unpack& unpack) const {
@@ -67,7 +69,7 @@ void RowExchange::exchange(bool to_owners, const Pack& pack, const Unpack& unpac
   MPI_Waitall(static_cast<int>(request), requests.data(), MPI_STATUSES_IGNORE);
   request = 0;
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    in[k].resize(static_cast<std::size_t>(n_in[k]));
+    in[k].resize(as_size(n_in[k]));
     MPI_Irecv(in[k].data(), n_in[k], MPI_DOUBLE, neighbours[k].rank, 2, PETSC_COMM_WORLD,
               &requests[request++]);
     MPI_Isend(out[k].data(), n_out[k], MPI_DOUBLE, neighbours[k].rank, 2, PETSC_COMM_WORLD,

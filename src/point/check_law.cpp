@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::point {
@@ -134,7 +135,7 @@ class Checks {
                   below.response.status == material::Status::converged;
         for (int i = 0; i < 6; ++i) {
           const double slope = (above.response.stress[i] - below.response.stress[i]) / (2 * h);
-          worst = std::max(worst, std::abs(slope - here.tangent[i][static_cast<std::size_t>(j)]) / size);
+          worst = std::max(worst, std::abs(slope - here.tangent[i][as_size(j)]) / size);
         }
       }
       best = std::min(best, worst);
@@ -143,10 +144,7 @@ class Checks {
     // How far the tangent is from a symmetric one.
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < i; ++j)
-        skew_.take(std::abs(here.tangent[i][static_cast<std::size_t>(j)] -
-                            here.tangent[j][static_cast<std::size_t>(i)]) /
-                       size,
-                   time);
+        skew_.take(std::abs(here.tangent[i][as_size(j)] - here.tangent[j][as_size(i)]) / size, time);
     if (!same(here, at(step.state.strain)) && repeats_) repeats_ = false, differs_at_ = time;
     ++n_tangents_;
   }

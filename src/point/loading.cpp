@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::point {
 
 namespace {
@@ -24,7 +26,7 @@ std::optional<double> time_needed(const Ramp& ramp, double from) {
 double duration_of(const Segment& segment, const Target& begin) {
   std::optional<double> duration = segment.duration;
   for (int i = 0; i < 6 && !duration; ++i)
-    duration = time_needed(segment.components[static_cast<std::size_t>(i)], begin.value[i]);
+    duration = time_needed(segment.components[as_size(i)], begin.value[i]);
   if (!duration) duration = time_needed(segment.temperature, begin.temperature);
   if (!duration || !(*duration > 0) || !std::isfinite(*duration))
     throw InputError(segment.where, "the segment takes no time: its target is there already",
@@ -66,14 +68,14 @@ Path::Path(const Segment& segment, const Sym<double>& strain, const Sym<double>&
     : segment_(&segment) {
   begin_.temperature = temperature;
   for (int i = 0; i < 6; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const auto k = as_size(i);
     begin_.of[k] = segment.components[k].of;
     begin_.value[i] = begin_.of[k] == Control::strain ? strain[i] : stress[i];
   }
   duration_ = duration_of(segment, begin_);
   end_ = begin_;
   for (int i = 0; i < 6; ++i)
-    end_.value[i] = value_at_end(segment.components[static_cast<std::size_t>(i)], begin_.value[i], duration_);
+    end_.value[i] = value_at_end(segment.components[as_size(i)], begin_.value[i], duration_);
   end_.temperature = value_at_end(segment.temperature, temperature, duration_);
 }
 

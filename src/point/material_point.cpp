@@ -6,6 +6,7 @@
 
 #include "material/free_energy.hpp"
 #include "material/melt.hpp"
+#include "numbers/index_casts.hpp"
 #include "point/linear_system.hpp"
 
 namespace solidus::point {
@@ -27,7 +28,7 @@ constexpr double k_least_stiffness = 1e-12;
 std::vector<int> free_components(const Target& target) {
   std::vector<int> rows;
   for (int i = 0; i < 6; ++i)
-    if (target.of[static_cast<std::size_t>(i)] == Control::stress) rows.push_back(i);
+    if (target.of[as_size(i)] == Control::stress) rows.push_back(i);
   return rows;
 }
 
@@ -51,7 +52,7 @@ bool correction(const std::vector<int>& free, const Target& target, const Answer
     const int i = free[row];
     b[row] = target.value[i] - r.stress[i];
     for (std::size_t column = 0; column < free.size(); ++column) {
-      const auto j = static_cast<std::size_t>(free[column]);
+      const auto j = as_size(free[column]);
       a[row][column] = tangent[i][j] + least[i][j];
     }
   }
@@ -192,7 +193,7 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
   Sym<double> strain = now_.strain;
   const double growth = (p.elastic.thermal_strain - before.elastic.thermal_strain) / 3;
   for (int i = 0; i < 6; ++i) {
-    if (end.of[static_cast<std::size_t>(i)] == Control::strain)
+    if (end.of[as_size(i)] == Control::strain)
       strain[i] = end.value[i];
     else if (i < 3)
       strain[i] += growth;

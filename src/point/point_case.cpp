@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "material/cards/library.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::point {
 
@@ -62,9 +63,9 @@ std::array<ComponentRamp, 6> named_components(const SegmentSpec& s) {
       throw InputError(s.where, fmt::format("the segment says more than one thing about {}", name),
                        "its strain, its stress, or hold_strain");
     if (strain || held)
-      ramps[static_cast<std::size_t>(i)] = strain_ramp(s.strains.of(i), s.strain_rates.of(i));
+      ramps[as_size(i)] = strain_ramp(s.strains.of(i), s.strain_rates.of(i));
     else
-      ramps[static_cast<std::size_t>(i)] = stress_ramp(s.stresses.of(i), s.stress_rates.of(i));
+      ramps[as_size(i)] = stress_ramp(s.stresses.of(i), s.stress_rates.of(i));
   }
   return ramps;
 }
@@ -92,7 +93,7 @@ std::vector<Segment> make_segments(std::vector<SegmentSpec> specs, const CurveSp
   for (SegmentSpec& s : specs) {
     if (s.kind == SegmentKind::repeat) {
       // The last segments again, as often as asked for.
-      const auto last = static_cast<std::size_t>(s.last);
+      const auto last = as_size(s.last);
       if (last > segments.size())
         throw InputError(s.where, fmt::format("the last {} segments are to be repeated, and there are {}",
                                               s.last, segments.size()));

@@ -8,6 +8,7 @@
 #include "material/external_law.hpp"
 #include "material/melt.hpp"
 #include "material/viscoplastic.hpp"
+#include "numbers/index_casts.hpp"
 #include "point/material_point.hpp"
 #include "python/bindings.hpp"
 #include "system/errors.hpp"
@@ -30,7 +31,7 @@ Shared find(const std::string& reference) {
 /// One value for each temperature.
 template <class F>
 py::array_t<double> each(const Array& temperature, F value) {
-  std::vector<double> values(static_cast<std::size_t>(temperature.size()));
+  std::vector<double> values(as_size(temperature.size()));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(temperature.data()[i]);
   return array_of(std::move(values), {temperature.shape(), temperature.shape() + temperature.ndim()});
 }
@@ -131,7 +132,7 @@ py::dict update(const Shared& m, const Array& strain, const Array& temperature, 
   const Viscoplastic law(*m);
   const py::ssize_t n = strain.shape(0);
   // Flat arrays with one part a point, which become arrays of Python without a copy.
-  const auto size = static_cast<std::size_t>(n);
+  const auto size = as_size(n);
   std::vector<double> stress(6 * size), state(k_state * size), tangent(with_tangent ? 36 * size : 0),
       dissipation(size), flow(size), fraction(size);
   std::vector<double> converged(size);
@@ -150,9 +151,7 @@ py::dict update(const Shared& m, const Array& strain, const Array& temperature, 
       if (!with_tangent) continue;
       const Sym4<double> c = material::full_tangent(r);
       for (int a = 0; a < 6; ++a)
-        for (int b = 0; b < 6; ++b)
-          tangent[36 * i + 6 * static_cast<std::size_t>(a) + static_cast<std::size_t>(b)] =
-              c[a][static_cast<std::size_t>(b)];
+        for (int b = 0; b < 6; ++b) tangent[36 * i + 6 * as_size(a) + as_size(b)] = c[a][as_size(b)];
     }
   }
   py::dict result;
@@ -191,7 +190,7 @@ py::dict moduli(const Shared& m, const Array& temperature, double reference) {
 /// equilibrium, or -1.
 py::tuple draw(const Shared& m, const Array& time, const Array& strain, const Array& temperature) {
   require_mechanics(*m);
-  const auto n = static_cast<std::size_t>(time.size());
+  const auto n = as_size(time.size());
   point::MaterialPoint::Options options;
   options.temperature = temperature.data()[0];
   options.strain_reference = options.temperature;

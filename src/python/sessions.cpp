@@ -4,6 +4,7 @@
 
 #include "material/external_law.hpp"
 #include "mesh/files/vtk_cells.hpp"
+#include "numbers/index_casts.hpp"
 #include "python/bindings.hpp"
 #include "results/fields/state_fields.hpp"
 #include "results/formats/vtu.hpp"
@@ -136,7 +137,7 @@ class Driver {
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
       types.push_back(static_cast<std::uint8_t>(mesh::vtk_cell_type(block.shape)));
       body.push_back(block.body);
-      element.push_back(block.input_element[static_cast<std::size_t>(e)]);
+      element.push_back(block.input_element[as_size(e)]);
     });
     // Numbers of nodes and cells are those of the input, so that scripts can compare runs.
     py::dict d;
@@ -173,7 +174,7 @@ class Driver {
     std::vector<double> storage;
     const std::span<const double> values = found->read(storage);
     // Vectors of the plane get a third component, as the readers of such arrays expect.
-    const auto nc = static_cast<std::size_t>(found->components);
+    const auto nc = as_size(found->components);
     const std::size_t padded = nc == 2 ? 3 : nc;
     std::vector<double> taken;
     const auto take = [&](std::size_t entity) {
@@ -212,8 +213,8 @@ class Driver {
     std::size_t first = 0;
     for (const mesh::ElementBlock& block : m.blocks) {
       if (active == nullptr || active->body(block.body))
-        for (Index e = 0; e < block.n_counted; ++e) use(block, e, first + static_cast<std::size_t>(e));
-      first += static_cast<std::size_t>(block.size());
+        for (Index e = 0; e < block.n_counted; ++e) use(block, e, first + as_size(e));
+      first += as_size(block.size());
     }
   }
 

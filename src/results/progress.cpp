@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "coupling/energy_scale.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/terminal.hpp"
 
 namespace solidus::results {
@@ -118,7 +119,7 @@ void Progress::line(const std::string& text) {
 
 void Progress::draw_bar(double share, const std::string& left) {
   const auto full = static_cast<std::size_t>(std::lround(share * options_.width));
-  const auto rest = static_cast<std::size_t>(options_.width) - full;
+  const auto rest = as_size(options_.width) - full;
   out_ << fmt::format("[{}{}] {:3.0f} %  {} left", std::string(full, '='), std::string(rest, ' '),
                       100 * share, left)
        << std::flush;

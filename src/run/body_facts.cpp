@@ -10,6 +10,7 @@
 
 #include "coupling/contact_states.hpp"
 #include "mechanics/elements/block_kernel.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/mechanics_input.hpp"
 #include "system/processes.hpp"
@@ -17,10 +18,6 @@
 namespace solidus::run {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Boxes, weights and supports of the bodies, each on its own.
 class Bodies {
@@ -59,9 +56,9 @@ void Bodies::measure_boxes(std::vector<BodyFacts>& facts) const {
   for (const mesh::ElementBlock& block : a_.mesh.blocks)
     for (const Index node : block.nodes)
       for (std::size_t d = 0; d < 3; ++d) {
-        double* const of_body = high.data() + 6 * static_cast<std::size_t>(block.body);
-        of_body[d] = std::max(of_body[d], a_.mesh.x[at(node)][d]);
-        of_body[3 + d] = std::max(of_body[3 + d], -a_.mesh.x[at(node)][d]);
+        double* const of_body = high.data() + 6 * as_size(block.body);
+        of_body[d] = std::max(of_body[d], a_.mesh.x[as_size(node)][d]);
+        of_body[3 + d] = std::max(of_body[3 + d], -a_.mesh.x[as_size(node)][d]);
       }
   processes::largest(high);
   for (std::size_t b = 0; b < n_; ++b) {
@@ -74,10 +71,10 @@ void Bodies::measure_boxes(std::vector<BodyFacts>& facts) const {
 void Bodies::weigh(std::vector<BodyFacts>& facts) const {
   std::vector<double> weight(n_, 0.0);
   for (std::size_t k = 0; k < a_.mesh.blocks.size(); ++k) {
-    const auto body = static_cast<std::size_t>(a_.mesh.blocks[k].body);
+    const auto body = as_size(a_.mesh.blocks[k].body);
     std::vector<double> mass(a_.mesh.x.size(), 0.0);
     a_.mechanics->bodies().blocks[k]->add_nodal_volume(a_.materials[body].density, mass);
-    for (Index i = 0; i < a_.mesh.n_owned_nodes; ++i) weight[body] += mass[at(i)];
+    for (Index i = 0; i < a_.mesh.n_owned_nodes; ++i) weight[body] += mass[as_size(i)];
   }
   processes::sum(weight);
   const double g = std::hypot(gravity_[0], gravity_[1], gravity_[2]);
@@ -91,7 +88,7 @@ bool Bodies::holds(const double* prescribed, int components) const {
   bool all = true, along = false;
   for (int c = first; c < components; ++c) {
     all &= prescribed[c] > 0;
-    along |= prescribed[c] > 0 && std::abs(gravity_[static_cast<std::size_t>(c)]) > k_along * g;
+    along |= prescribed[c] > 0 && std::abs(gravity_[as_size(c)]) > k_along * g;
   }
   return g > 0 ? along : all;
 }
@@ -104,16 +101,16 @@ void Bodies::find_supports(std::vector<BodyFacts>& facts) const {
   std::vector<double> prescribed(3 * n_, 0.0), joined(n_ * n_, 0.0);
   std::vector<int> first(a_.mesh.x.size(), -1);
   for (const mesh::ElementBlock& block : a_.mesh.blocks) {
-    const auto body = static_cast<std::size_t>(block.body);
+    const auto body = as_size(block.body);
     if (!facts[body].moves) continue;
     for (const Index node : block.nodes) {
       for (int c = 0; c < n_components; ++c)
-        if (const std::size_t entry = at(node) * at(n_components) + at(c);
+        if (const std::size_t entry = as_size(node) * as_size(n_components) + as_size(c);
             entry < fixed.size() && fixed[entry] != 0)
-          prescribed[3 * body + at(c)] = 1;
-      int& other = first[at(node)];
+          prescribed[3 * body + as_size(c)] = 1;
+      int& other = first[as_size(node)];
       if (other < 0) other = block.body;
-      joined[body * n_ + at(other)] = joined[at(other) * n_ + body] = 1;
+      joined[body * n_ + as_size(other)] = joined[as_size(other) * n_ + body] = 1;
     }
   }
   processes::largest(prescribed);
@@ -129,9 +126,9 @@ void Bodies::find_supports(std::vector<BodyFacts>& facts) const {
   std::vector<std::array<double, 3>> of_group(n_, std::array<double, 3>{});
   for (std::size_t b = 0; b < n_; ++b)
     for (std::size_t c = 0; c < 3; ++c)
-      of_group[at(group[b])][c] = std::max(of_group[at(group[b])][c], prescribed[3 * b + c]);
+      of_group[as_size(group[b])][c] = std::max(of_group[as_size(group[b])][c], prescribed[3 * b + c]);
   for (std::size_t b = 0; b < n_; ++b)
-    facts[b].supported = holds(of_group[at(group[b])].data(), n_components);
+    facts[b].supported = holds(of_group[as_size(group[b])].data(), n_components);
 }
 
 /// The bodies that have faces of a surface. Collective.
@@ -139,7 +136,7 @@ std::set<std::size_t> bodies_of(const mesh::Mesh& mesh, const std::string& surfa
   std::vector<double> has(mesh.bodies.size(), 0.0);
   if (const auto found = mesh.surfaces.find(surface); found != mesh.surfaces.end())
     for (const mesh::ElementBlock& faces : found->second.faces)
-      if (faces.body >= 0 && faces.size() > 0) has[at(faces.body)] = 1;
+      if (faces.body >= 0 && faces.size() > 0) has[as_size(faces.body)] = 1;
   processes::largest(has);
   std::set<std::size_t> bodies;
   for (std::size_t b = 0; b < has.size(); ++b)
@@ -206,20 +203,20 @@ void find_contacts(const setup::Assembly& a, const coupling::State& last,
 /// The largest change of a distance between neighbouring nodes of an element at the last step, of every body.
 void find_elongation(const setup::Assembly& a, const coupling::State& last, std::vector<BodyFacts>& facts) {
   const std::vector<double>& u = last.mechanics.displacement;
-  const auto n = at(a.mechanics->bodies().components);
+  const auto n = as_size(a.mechanics->bodies().components);
   std::vector<double> largest(facts.size(), 0.0);
   // Edges between neighbouring nodes in their numbering: a few for each element are enough to see a
   // strain of a mechanism.
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
-    double& of_body = largest[at(block.body)];
-    if (!facts[at(block.body)].moves || u.empty()) continue;
+    double& of_body = largest[as_size(block.body)];
+    if (!facts[as_size(block.body)].moves || u.empty()) continue;
     for (Index e = 0; e < block.n_counted; ++e)
       for (int i = 1; i < mesh::node_count(block.shape); ++i) {
         const Index one = block.element(e)[i - 1], other = block.element(e)[i];
         double drawn = 0, now = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-          const double edge = a.mesh.x[at(one)][c] - a.mesh.x[at(other)][c];
-          const double change = c < n ? u[at(one) * n + c] - u[at(other) * n + c] : 0.0;
+          const double edge = a.mesh.x[as_size(one)][c] - a.mesh.x[as_size(other)][c];
+          const double change = c < n ? u[as_size(one) * n + c] - u[as_size(other) * n + c] : 0.0;
           drawn += edge * edge;
           now += (edge + change) * (edge + change);
         }
@@ -235,16 +232,16 @@ void find_motion(const setup::Assembly& a, const coupling::State& last, const me
                  std::vector<BodyFacts>& facts) {
   const std::vector<double>&now = iterate.displacement, &before = last.mechanics.displacement;
   if (parallel::any_process(now.size() != before.size())) return;
-  const auto n = at(a.mechanics->bodies().components);
+  const auto n = as_size(a.mechanics->bodies().components);
   // The farthest node of each body on this process;
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
-    BodyFacts& body = facts[at(block.body)];
+    BodyFacts& body = facts[as_size(block.body)];
     if (!body.moves) continue;
     for (const Index node : block.nodes) {
       if (node >= a.mesh.n_owned_nodes) continue;
       double squares = 0;
       for (std::size_t c = 0; c < n; ++c) {
-        const double way = now[at(node) * n + c] - before[at(node) * n + c];
+        const double way = now[as_size(node) * n + c] - before[as_size(node) * n + c];
         squares += way * way;
       }
       const double way = std::isnan(squares) ? HUGE_VAL : std::sqrt(squares);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "heat/iteration/worst_node.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
@@ -29,7 +30,7 @@ const char* remedy(const cases::CaseSpec& spec) {
 void BoundsWatch::begin(const coupling::State& state) {
   range_ = {};
   for (Index i = 0; i < phase_.mesh().n_owned_nodes; ++i) {
-    const double t = state.heat.temperature[static_cast<std::size_t>(i)];
+    const double t = state.heat.temperature[as_size(i)];
     range_.lowest = std::min(range_.lowest, t);
     range_.highest = std::max(range_.highest, t);
   }
@@ -46,7 +47,7 @@ void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state
   heat::WorstNode worst;
   const std::vector<double>& temperature = state.heat.temperature;
   for (Index i = 0; i < phase_.mesh().n_owned_nodes; ++i) {
-    const auto n = static_cast<std::size_t>(i);
+    const auto n = as_size(i);
     worst.look(n, std::max(range_.lowest - temperature[n], temperature[n] - range_.highest));
   }
   const double beyond = parallel::global_max(worst.size);

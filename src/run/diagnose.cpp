@@ -12,6 +12,7 @@
 #include "heat/iteration/heat_rejected.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "mechanics/equilibrium_rejected.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "run/body_facts.hpp"
 #include "system/processes.hpp"
@@ -32,10 +33,6 @@ constexpr double k_kept = 0.5;
 /// Conductance times step over heat capacity above which the contact sets the temperature of its surface.
 constexpr double k_conducts = 1;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// The owner of a node that one process at most holds, negative elsewhere; −1 where none does. Collective.
 int owner_of(Index node) {
   const processes::Largest found = processes::find_largest(node >= 0 ? 1.0 : 0.0);
@@ -54,13 +51,13 @@ void describe_node(const setup::Assembly& a, const coupling::State& last, Index 
   if (owner < 0) return;
   std::vector<double> numbers(6, 0.0);
   if (owner == processes::rank()) {
-    const mesh::Point& x = a.mesh.x[at(node)];
-    const bool melt = !coherency.empty() && coherency[at(node)] < 1;
+    const mesh::Point& x = a.mesh.x[as_size(node)];
+    const bool melt = !coherency.empty() && coherency[as_size(node)] < 1;
     numbers = {x[0],
                x[1],
                x[2],
-               at(node) < temperature.size() ? temperature[at(node)] : 0.0,
-               solid[at(node)],
+               as_size(node) < temperature.size() ? temperature[as_size(node)] : 0.0,
+               solid[as_size(node)],
                melt ? 1.0 : 0.0};
   }
   processes::broadcast(numbers, owner);
@@ -73,7 +70,8 @@ void describe_node(const setup::Assembly& a, const coupling::State& last, Index 
 /// The name of the first body that has a node, on the process that owns it.
 std::string body_of(const mesh::Mesh& mesh, Index node) {
   for (const mesh::ElementBlock& block : mesh.blocks)
-    if (std::ranges::find(block.nodes, node) != block.nodes.end()) return mesh.bodies[at(block.body)].name;
+    if (std::ranges::find(block.nodes, node) != block.nodes.end())
+      return mesh.bodies[as_size(block.body)].name;
   return {};
 }
 
@@ -134,7 +132,7 @@ coupling::Physics physics_of(const BodyFacts& body, const Diagnosis& d, Failure 
 void find_contact_heat(const setup::Assembly& a, const coupling::State& last, Index node, double dt,
                        Diagnosis& d) {
   std::vector<double> number(a.phases.contacts.size(), 0.0);
-  const double temperature = node >= 0 ? last.heat.temperature[at(node)] : 0.0;
+  const double temperature = node >= 0 ? last.heat.temperature[as_size(node)] : 0.0;
   const double capacity = node >= 0 ? a.heat->storage().capacity(node, temperature) : 0.0;
   for (std::size_t i = 0; i < number.size(); ++i) {
     const contact::ContactPair& pair = *a.phases.contacts[i];
@@ -142,7 +140,7 @@ void find_contact_heat(const setup::Assembly& a, const coupling::State& last, In
     const contact::ContactNodalFields fields = contact::nodal_fields(pair.view(), last.heat.temperature);
     const auto found = std::ranges::find(fields.nodes, node);
     if (found == fields.nodes.end()) continue;
-    const auto k = static_cast<std::size_t>(found - fields.nodes.begin());
+    const auto k = as_size(found - fields.nodes.begin());
     const double passes = fields.conductance[k] * fields.paired_area[k] * dt / capacity;
     if (std::isfinite(passes)) number[i] = passes;
   }
@@ -150,7 +148,7 @@ void find_contact_heat(const setup::Assembly& a, const coupling::State& last, In
   const auto largest = std::ranges::max_element(number);
   if (largest == number.end() || !(*largest > 0)) return;
   d.conductance_number = *largest;
-  d.contact_name = a.phases.contacts[static_cast<std::size_t>(largest - number.begin())]->parts().spec.name;
+  d.contact_name = a.phases.contacts[as_size(largest - number.begin())]->parts().spec.name;
 }
 
 /// Whether a temperature is above all that bodies were poured at and that is around them: flow has heated it.
@@ -168,8 +166,7 @@ void look_for_flow(const cases::CaseSpec& spec, const setup::Assembly& a, const 
   if (!a.mechanics || !spec.exchanges_heat() || !heated_by_flow(a, last, d.temperature)) return;
   const auto body = std::ranges::find(a.mesh.bodies, d.body, &mesh::Body::name);
   if (body == a.mesh.bodies.end()) return;
-  const BodyFacts facts =
-      body_facts(spec, a, last, nullptr)[static_cast<std::size_t>(body - a.mesh.bodies.begin())];
+  const BodyFacts facts = body_facts(spec, a, last, nullptr)[as_size(body - a.mesh.bodies.begin())];
   if (!facts.plastic || !(facts.elongation > k_strained)) return;
   d.physics = coupling::Physics::limit_load;
   d.elongation = facts.elongation;
@@ -185,7 +182,7 @@ Diagnosis of_heat(const cases::CaseSpec& spec, const setup::Assembly& a, const c
   // The process that owns the node knows its temperature and body and tells the others.
   std::vector<double> tried(1, 0.0);
   if (owner == processes::rank()) {
-    tried[0] = rejected.temperature[at(rejected.node)];
+    tried[0] = rejected.temperature[as_size(rejected.node)];
     d.body = body_of(a.mesh, rejected.node);
   }
   processes::broadcast(tried, owner);

@@ -13,6 +13,7 @@
 #include "cases/roles.hpp"
 #include "contact/interface/heat_transfer.hpp"
 #include "input/keys.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/formats/vtu.hpp"
 #include "results/output/json_document.hpp"
 #include "results/output/output_error.hpp"
@@ -132,8 +133,7 @@ Json triangles_of(const mesh::Mesh& mesh, const std::string& group, const Source
       for (int k = 2; k < corners; ++k) {
         std::vector<double> numbers;
         for (const int corner : {0, k - 1, k})
-          for (const double x : mesh.x[static_cast<std::size_t>(block.element(e)[corner])])
-            numbers.push_back(x);
+          for (const double x : mesh.x[as_size(block.element(e)[corner])]) numbers.push_back(x);
         triangles.emplace_back(list(numbers));
       }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
@@ -17,26 +18,22 @@ namespace {
 /// A melt that is outside of its body's box by this share of the body's size has left its mould.
 constexpr double k_out = 0.5;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 }  // namespace
 
 MeltWatch::MeltWatch(const cases::CaseSpec& spec, const setup::Assembly& a)
-    : spec_(spec), a_(a), body_(at(a.mesh.n_owned_nodes), -1) {
+    : spec_(spec), a_(a), body_(as_size(a.mesh.n_owned_nodes), -1) {
   constexpr double k_unbounded = std::numeric_limits<double>::infinity();
   boxes_.resize(spec.bodies.size(),
                 {{k_unbounded, k_unbounded, k_unbounded}, {-k_unbounded, -k_unbounded, -k_unbounded}});
   // The box around each body as it starts, and of each own node the body.
   for (const mesh::ElementBlock& block : a.mesh.blocks) {
-    const auto body = static_cast<std::size_t>(block.body);
+    const auto body = as_size(block.body);
     for (const Index node : block.nodes) {
       for (std::size_t d = 0; d < 3; ++d) {
-        boxes_[body].low[d] = std::min(boxes_[body].low[d], a.mesh.x[at(node)][d]);
-        boxes_[body].high[d] = std::max(boxes_[body].high[d], a.mesh.x[at(node)][d]);
+        boxes_[body].low[d] = std::min(boxes_[body].low[d], a.mesh.x[as_size(node)][d]);
+        boxes_[body].high[d] = std::max(boxes_[body].high[d], a.mesh.x[as_size(node)][d]);
       }
-      if (node < a.mesh.n_owned_nodes && body_[at(node)] < 0) body_[at(node)] = block.body;
+      if (node < a.mesh.n_owned_nodes && body_[as_size(node)] < 0) body_[as_size(node)] = block.body;
     }
   }
   // Over all processes, so that a body in two parts has one box.
@@ -68,7 +65,7 @@ void MeltWatch::step(const coupling::StepRecord&, const coupling::State& state) 
     if (body_[i] < 0 || coherency[i] >= 1) continue;
     mesh::Point place = a_.mesh.x[i];
     for (std::size_t d = 0; d < n; ++d) place[d] += u[i * n + d];
-    const auto body = static_cast<std::size_t>(body_[i]);
+    const auto body = as_size(body_[i]);
     farthest[body] = std::max(farthest[body], boxes_[body].distance_outside(place));
   }
   // Once is enough: what has run out does not come back.

@@ -8,6 +8,7 @@
 
 #include "cases/roles.hpp"
 #include "cases/stage_input.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::run {
 
@@ -49,8 +50,7 @@ double count_nodes(const std::vector<const cases::BodySpec*>& bodies, const mesh
     if (group == mesh.groups.end()) continue;  // load_mesh() says so
     for (const mesh::RawBlock& block : group->second.blocks)
       for (const Index node : block.nodes)
-        if (node >= 0 && static_cast<std::size_t>(node) < there.size())
-          there[static_cast<std::size_t>(node)] = 1;
+        if (node >= 0 && as_size(node) < there.size()) there[as_size(node)] = 1;
   }
   return static_cast<double>(std::count(there.begin(), there.end(), 1));
 }

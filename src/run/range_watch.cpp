@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "material/cards/library.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "system/log.hpp"
@@ -94,9 +95,9 @@ void RangeWatch::look(const coupling::State& state) {
   for (const mesh::ElementBlock& block : a_.mesh.blocks) {
     if (a_.heat && !a_.heat->active().body(block.body)) continue;
     for (const Index i : block.nodes) {
-      const auto b = static_cast<std::size_t>(block.body);
-      low[b] = std::min(low[b], temperature[static_cast<std::size_t>(i)]);
-      high[b] = std::max(high[b], temperature[static_cast<std::size_t>(i)]);
+      const auto b = as_size(block.body);
+      low[b] = std::min(low[b], temperature[as_size(i)]);
+      high[b] = std::max(high[b], temperature[as_size(i)]);
     }
   }
   // After the extremes of all processes are known.

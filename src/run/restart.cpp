@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cases/stage_input.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/output/run_lock.hpp"
 #include "setup/run_input.hpp"
 #include "setup/time_input.hpp"
@@ -28,9 +29,7 @@ std::optional<results::Checkpoint> checkpoint(const cases::CaseSpec& spec, const
   // A run may have ended for three reasons before its time: periodic, all solid, or its end time reached.
   const cases::CycleSpec* cycle = cases::periodic_cycle(spec);
   const cases::StageRun* stage =
-      found.continuation.stage.number > 0
-          ? &a.stages[static_cast<std::size_t>(found.continuation.stage.number) - 1]
-          : nullptr;
+      found.continuation.stage.number > 0 ? &a.stages[as_size(found.continuation.stage.number) - 1] : nullptr;
   const bool periodic = cycle != nullptr && stage != nullptr && stage->ends_shot &&
                         found.state.time == stage->end && found.continuation.shots.shots > 0 &&
                         found.continuation.shots.change <= *cycle->periodic;

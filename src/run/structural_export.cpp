@@ -10,6 +10,7 @@
 #include "coupling/contact_states.hpp"
 #include "coupling/passes.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/checkpoint/checkpoint.hpp"
 #include "results/formats/deck_supports.hpp"
 #include "results/formats/temperature_history.hpp"
@@ -86,9 +87,9 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
   for (int k = 0; k < n_modes; ++k) {
     modes.emplace_back();
     for (const mesh::QuadraturePoint& point : rule)
-      modes.back().push_back(k == 0 ? 1.0 : point.xi[static_cast<std::size_t>(k - 1)]);
+      modes.back().push_back(k == 0 ? 1.0 : point.xi[as_size(k - 1)]);
   }
-  std::vector<std::vector<std::array<double, 6>>> stress(static_cast<std::size_t>(block.size()));
+  std::vector<std::vector<std::array<double, 6>>> stress(as_size(block.size()));
   for (std::size_t e = 0; e < stress.size(); ++e) {
     const std::size_t batch = e / k_lanes;
     const int lane = static_cast<int>(e % k_lanes);
@@ -118,21 +119,19 @@ void balance_triangles(results::StructuralDeck& deck) {
     const mesh::ElementBlock& block = deck.mesh.blocks[b];
     if (!deck.active.body(block.body)) continue;
     const mesh::BlockGeometry geometry(deck.mesh, block, deck.kind, mesh::stiffness_rule(block.shape));
-    const auto n = static_cast<std::size_t>(geometry.n_nodes);
+    const auto n = as_size(geometry.n_nodes);
     for (Index e = 0; e < block.size(); ++e) {
       const Index batch = e / k_lanes;
       const int lane = static_cast<int>(e % k_lanes);
       for (int q = 0; q < geometry.n_points; ++q) {
-        const std::array<double, 6>& s =
-            deck.stress[b][static_cast<std::size_t>(e)][static_cast<std::size_t>(q)];
+        const std::array<double, 6>& s = deck.stress[b][as_size(e)][as_size(q)];
         const double w = geometry.weight_at(batch, q)[lane];
-        const double hoop =
-            geometry.inverse_radius[static_cast<std::size_t>(batch * geometry.n_points + q)][lane] * s[2];
+        const double hoop = geometry.inverse_radius[as_size(batch * geometry.n_points + q)][lane] * s[2];
         const Lane* const gradients = geometry.gradients_at(batch, q);
         for (std::size_t a = 0; a < n; ++a) {
-          const auto node = static_cast<std::size_t>(block.element(e)[a]);
+          const auto node = as_size(block.element(e)[a]);
           const double gr = gradients[2 * a][lane], gz = gradients[2 * a + 1][lane];
-          const double value = geometry.values[static_cast<std::size_t>(q) * n + a];
+          const double value = geometry.values[as_size(q) * n + a];
           force[2 * node] += w * (gr * s[0] + gz * s[3] + value * hoop);
           force[2 * node + 1] += w * (gz * s[1] + gr * s[3]);
           if (block.shape == mesh::Shape::tri3) around[node] = 1;
@@ -148,7 +147,7 @@ std::vector<std::vector<Index>> tied_entries(const linear::MultiPointConstraints
                                              std::size_t n_entries) {
   std::map<GlobalIndex, std::vector<Index>> groups;
   for (std::size_t i = 0; i < n_entries && !constraints.empty(); ++i)
-    groups[constraints.unknown(static_cast<Index>(i))].push_back(static_cast<Index>(i));
+    groups[constraints.unknown(as_index(i))].push_back(as_index(i));
   std::vector<std::vector<Index>> tied;
   for (auto& [leader, entries] : groups)
     if (entries.size() > 1) tied.push_back(std::move(entries));
@@ -190,7 +189,7 @@ ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& 
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   ExportReport report{deck.history.back().time, 0, 0, deck.history.size(), deck.supports.size()};
   for (const mesh::ElementBlock& block : a.mesh.blocks)
-    if (active.body(block.body)) report.elements += static_cast<std::size_t>(block.size());
+    if (active.body(block.body)) report.elements += as_size(block.size());
   results::write_file(options.file, options.deck(deck));
   return report;
 }
@@ -257,8 +256,7 @@ ExportReport export_state(const setup::Case& c, const ExportOptions& options) {
           .read(a.mesh, setup::fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
   const coupling::StageStart& stage = from.continuation.stage;
   cases::check_stage_of_checkpoint(spec, stage, from.state.time);
-  if (stage.number > 0)
-    setup::apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
+  if (stage.number > 0) setup::apply(spec, as_size(stage.number - 1), stage.displacement, nullptr, a);
 
   coupling::State& state = from.state;
   const std::vector<double>& temperature = a.heat ? state.heat.temperature : a.phases.temperature;

@@ -10,6 +10,7 @@
 #include "check/coupling_estimate.hpp"
 #include "coupling/internal_energy.hpp"
 #include "criteria/moved_metal.hpp"
+#include "numbers/index_casts.hpp"
 #include "run/advice.hpp"
 #include "run/diagnose.hpp"
 #include "run/recording.hpp"
@@ -40,7 +41,7 @@ std::unique_ptr<coupling::ShotMap> shot_map(const cases::CaseSpec& spec, const s
 bool expands_as_it_freezes(const std::vector<results::CastBody>& cast,
                            const std::vector<material::Material>& materials) {
   return std::any_of(cast.begin(), cast.end(), [&](const results::CastBody& body) {
-    const auto& changes = materials[static_cast<std::size_t>(body.body)].phase_changes;
+    const auto& changes = materials[as_size(body.body)].phase_changes;
     return std::any_of(changes.begin(), changes.end(), [](const material::PhaseChange& change) {
       return change.graphite || (change.solidification && change.volume_change > 0);
     });
@@ -60,7 +61,7 @@ double solid_fraction_of_step(const std::vector<results::CastBody>& cast,
   if (expands) return k_where_it_expands;
   double largest = 0;
   for (const results::CastBody& body : cast)
-    for (const material::PhaseChange& change : materials[static_cast<std::size_t>(body.body)].phase_changes)
+    for (const material::PhaseChange& change : materials[as_size(body.body)].phase_changes)
       if (change.solidification) largest = std::max(largest, change.fraction.isothermal_share());
   return largest * k_most > k_at_one_temperature ? k_at_one_temperature / largest : k_most;
 }
@@ -154,8 +155,7 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
                                  coupling::State& state, bool has_moved) {
       const criteria::NodalMetal metal = criteria::metal_at_nodes(state.criteria);
       if (metal.held.empty()) return;
-      const std::span<const double> owned =
-          std::span(metal.held).first(static_cast<std::size_t>(a.mesh.n_owned_nodes));
+      const std::span<const double> owned = std::span(metal.held).first(as_size(a.mesh.n_owned_nodes));
       a.heat->move_metal({moves, owned, metal.filled}, has_moved ? nullptr : &state.heat);
     });
   simulation_.stop_when(options.stop_asked);

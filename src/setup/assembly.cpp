@@ -11,6 +11,7 @@
 
 #include "cases/case_materials.hpp"
 #include "mechanics/new_bodies.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/admissible.hpp"
 #include "setup/bare_melt.hpp"
@@ -36,9 +37,9 @@ std::vector<double> nodal_temperature(const cases::CaseSpec& spec, const Initial
   using Rank = std::pair<bool, double>;
   std::vector<Rank> best(mesh.x.size(), {false, -1.0});
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const bool deforms = !cases::only_conducts(spec.bodies[static_cast<std::size_t>(block.body)]);
+    const bool deforms = !cases::only_conducts(spec.bodies[as_size(block.body)]);
     for (const Index i : block.nodes) {
-      Rank& here = best[static_cast<std::size_t>(i)];
+      Rank& here = best[as_size(i)];
       here = std::max(here, Rank(deforms, start.temperature(i, block.body)));
     }
   }
@@ -158,8 +159,7 @@ void build_heat(const cases::CaseSpec& spec, const InitialTemperatures& start, A
   if (a.growth) {
     const std::vector<double> to_come = nodal_temperature(spec, start, a.mesh);
     for (Index i = 0; i < a.mesh.n_nodes(); ++i)
-      if (!a.heat->active().node(i))
-        a.initial.heat.temperature[static_cast<std::size_t>(i)] = to_come[static_cast<std::size_t>(i)];
+      if (!a.heat->active().node(i)) a.initial.heat.temperature[as_size(i)] = to_come[as_size(i)];
   }
   // What has burned is part of the state, where something can burn at all.
   const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const cases::ThermalConditionSpec& c) {

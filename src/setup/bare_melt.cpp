@@ -8,6 +8,7 @@
 #include "heat/thermal_phase.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "system/errors.hpp"
@@ -31,20 +32,19 @@ void add_faces(const Assembly& a, AnalysisKind kind, const std::string& surface,
   const auto group = a.mesh.surfaces.find(surface);
   if (group == a.mesh.surfaces.end()) return;
   // A skin that is not coherent yet cannot hold the melt behind it.
-  const double coherency = a.materials[static_cast<std::size_t>(body)].casting.coherency_fraction;
+  const double coherency = a.materials[as_size(body)].casting.coherency_fraction;
   for (const mesh::ElementBlock& faces : group->second.faces) {
     if (faces.body != body) continue;
     const mesh::FaceGeometry geometry(a.mesh, faces, kind, mesh::stiffness_rule(faces.shape));
     for (Index f = 0; f < faces.n_counted; ++f) {
       // The area of a face, by the weights of its quadrature points.
       double area = 0;
-      for (int p = 0; p < geometry.n_points; ++p)
-        area += geometry.weight[static_cast<std::size_t>(f * geometry.n_points + p)];
+      for (int p = 0; p < geometry.n_points; ++p) area += geometry.weight[as_size(f * geometry.n_points + p)];
       const auto nodes = faces.element(f);
       const int vertices = mesh::vertex_count(faces.shape);
       // Its solid fraction is the mean of its vertices; nodes on its edges would count these twice.
       double fraction = 0;
-      for (int n = 0; n < vertices; ++n) fraction += solid[static_cast<std::size_t>(nodes[n])] / vertices;
+      for (int n = 0; n < vertices; ++n) fraction += solid[as_size(nodes[n])] / vertices;
       skin.all += area;
       if (fraction < coherency) skin.liquid += area;
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "linear/active_set.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::setup {
@@ -129,14 +130,14 @@ void check_new_bodies(const cases::CaseSpec& spec, const std::vector<cases::Stag
     SourceLocation where;
     for (const bool is_new : {false, true})
       for (const mesh::ElementBlock& block : mesh.blocks) {
-        const auto b = static_cast<std::size_t>(block.body);
+        const auto b = as_size(block.body);
         const cases::BodySpec& body = spec.bodies[b];
         // Bodies that conduct alone have no displacements to share.
         if (cases::only_conducts(body) || !holds(body.stages, &runs[i]) || (fresh[b] != 0) != is_new)
           continue;
         bool shared = false;
         for (const Index node : block.nodes) {
-          char& there = stays[static_cast<std::size_t>(node)];
+          char& there = stays[as_size(node)];
           if (is_new)
             shared = shared || there != 0;
           else

@@ -10,6 +10,7 @@
 #include "contact/quantities.hpp"
 #include "coupling/all_fields.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/output/run_folder.hpp"
 #include "setup/body_input.hpp"
 #include "setup/case_file.hpp"
@@ -153,7 +154,7 @@ void check_conditions(const cases::CaseSpec& spec) {
     if (c.kind == cases::MechanicalConditionSpec::Kind::displacement)
       check_displacement(c, spec.analysis.kind);
     using Kind = cases::MechanicalConditionSpec::Kind;
-    const auto n_directions = static_cast<std::size_t>(spec.dimension());
+    const auto n_directions = as_size(spec.dimension());
     const std::vector<Function>& directions = c.kind == Kind::traction ? c.traction : c.force;
     if ((c.kind == Kind::traction || c.kind == Kind::body_force) && directions.size() != n_directions)
       throw InputError(
@@ -276,8 +277,7 @@ void check_probes(const cases::CaseSpec& spec) {
           throw InputError(p.where, fmt::format("the probe '{}' is the difference of a difference", p.name));
       }
     }
-    if (p.kind == cases::ProbeSpec::Kind::point &&
-        p.point.size() != static_cast<std::size_t>(spec.dimension()))
+    if (p.kind == cases::ProbeSpec::Kind::point && p.point.size() != as_size(spec.dimension()))
       throw InputError(p.where,
                        fmt::format("the point of the probe '{}' has {} coordinates", p.name, p.point.size()),
                        fmt::format("{} in this analysis", spec.dimension()));
@@ -411,7 +411,7 @@ void check_feeding(const cases::CaseSpec& spec) {
 
 void check_case(const cases::CaseSpec& spec) {
   // Each section by itself, then what sections say together.
-  check_analysis(spec.analysis, static_cast<std::size_t>(spec.dimension()));
+  check_analysis(spec.analysis, as_size(spec.dimension()));
   check_mesh(spec.mesh, spec.analysis);
   check_time(spec);
   if (spec.bodies.empty())

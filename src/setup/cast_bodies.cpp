@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/roles.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::setup {
 
@@ -35,8 +36,7 @@ std::vector<char> followed_bodies(const cases::CaseSpec& spec,
                                   const std::vector<material::Material>& materials,
                                   const std::vector<InitialTemperatureRange>& start) {
   std::vector<char> followed(spec.bodies.size(), 0);
-  for (const results::CastBody& cast : cast_bodies(spec, materials, start))
-    followed[static_cast<std::size_t>(cast.body)] = 1;
+  for (const results::CastBody& cast : cast_bodies(spec, materials, start)) followed[as_size(cast.body)] = 1;
   if (std::find(followed.begin(), followed.end(), 1) == followed.end())
     for (std::size_t b = 0; b < materials.size(); ++b)
       followed[b] = materials[b].solidification() != nullptr ? 1 : 0;

@@ -9,6 +9,7 @@
 
 #include "input/column_table.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/criteria_input.hpp"
 #include "setup/section_names.hpp"
 
@@ -26,7 +27,7 @@ std::vector<Position> read_corners(const cases::ChannelSpec& c, int dimension) {
   std::vector<Position> corners;
   constexpr std::array k_axes{"x", "y", "z"};
   for (int axis = 0; axis < dimension; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
+    const auto a = as_size(axis);
     const auto column = std::ranges::find_if(
         table.columns, [&](const ColumnTable::Column& one) { return one.name == k_axes[a]; });
     if (column == table.columns.end() || column->unit.empty())

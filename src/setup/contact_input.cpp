@@ -11,6 +11,7 @@
 #include "contact/laws/contact_law.hpp"
 #include "contact/points/penalty.hpp"
 #include "material/elasticity.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "setup/friction_input.hpp"
@@ -67,11 +68,10 @@ bool meets(const mesh::Mesh& mesh, int body, const contact::ContactParameters& p
   std::vector<char> on(mesh.x.size(), 0);
   for (const std::string& name : {pair.slave, pair.master})
     if (const auto found = mesh.surfaces.find(name); found != mesh.surfaces.end())
-      for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
+      for (const Index node : found->second.nodes) on[as_size(node)] = 1;
   const bool here = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::ElementBlock& block) {
-    return block.body == body && std::any_of(block.nodes.begin(), block.nodes.end(), [&](Index node) {
-             return on[static_cast<std::size_t>(node)] != 0;
-           });
+    return block.body == body && std::any_of(block.nodes.begin(), block.nodes.end(),
+                                             [&](Index node) { return on[as_size(node)] != 0; });
   });
   return parallel::any_process(here);
 }
@@ -82,17 +82,16 @@ int body_on(const mesh::Mesh& mesh, const std::string& surface) {
   // Nodes of the surface, and for each body how many of them it has.
   std::vector<char> on(mesh.x.size(), 0);
   if (found != mesh.surfaces.end())
-    for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : found->second.nodes) on[as_size(node)] = 1;
   int most = -1;
   double largest = 0;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     std::vector<char> of_body(mesh.x.size(), 0);
     for (const mesh::ElementBlock& block : mesh.blocks)
       if (block.body == static_cast<int>(b))
-        for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+        for (const Index node : block.nodes) of_body[as_size(node)] = 1;
     double count = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i)
-      count += on[i] * of_body[i];
+    for (std::size_t i = 0; i < as_size(mesh.n_owned_nodes); ++i) count += on[i] * of_body[i];
     count = parallel::global_sum(count);
     if (count > largest) largest = count, most = static_cast<int>(b);
   }
@@ -228,8 +227,7 @@ void set_mean_conductivity(const mesh::Mesh& mesh, const std::vector<material::M
                     pair.rigid_master ? "a rigid surface has none" : "no body is on its surfaces"),
         "'conductivity' in [contact.heat.asperities]");
   pair.heat->contact_law = pair.heat->contact_law->with_conductivity(
-      harmonic_mean(materials[static_cast<std::size_t>(slave)].conductivity,
-                    materials[static_cast<std::size_t>(master)].conductivity));
+      harmonic_mean(materials[as_size(slave)].conductivity, materials[as_size(master)].conductivity));
 }
 
 void choose_normal(const cases::CaseSpec& spec, const std::vector<material::Material>& materials,

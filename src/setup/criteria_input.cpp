@@ -14,6 +14,7 @@
 #include "cases/roles.hpp"
 #include "criteria/criteria.hpp"
 #include "criteria/criterion_kind.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
 #include "setup/mechanics_input.hpp"
@@ -74,7 +75,7 @@ criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh
       if (mesh.surfaces.contains(feeder)) options.vented.push_back(feeder);
   // Risers by role or by name, as everywhere else.
   for (const results::CastBody& cast : cast_bodies(spec, materials, start))
-    if (cast.feeds) options.risers[static_cast<std::size_t>(cast.body)] = 1;
+    if (cast.feeds) options.risers[as_size(cast.body)] = 1;
   // Skins that something touches or cools are no free surfaces.
   for (const cases::ContactSpec& contact : spec.contacts)
     for (const std::string& side : contact.sides()) options.touched.insert(side);

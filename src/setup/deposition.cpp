@@ -9,6 +9,7 @@
 #include <set>
 
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/assembly.hpp"
 #include "setup/criteria_input.hpp"
@@ -83,7 +84,7 @@ struct Passing {
 Passing passing(const cases::DepositionSpec& d, const TravelPath& path, int dimension, const Position& x) {
   constexpr double k_margin = 1e-6;  // of the bead
   Position down{};
-  down[static_cast<std::size_t>(dimension) - 1] = -1;
+  down[as_size(dimension) - 1] = -1;
   if (!d.direction.empty()) down = unit(place(d.direction));
   const std::vector<TravelPoint>& points = path.points();
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -108,11 +109,10 @@ Passing passing(const cases::DepositionSpec& d, const TravelPath& path, int dime
 
 std::vector<Position> centres(const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
   const int n = mesh::vertex_count(block.shape);
-  std::vector<Position> all(static_cast<std::size_t>(block.size()));
+  std::vector<Position> all(as_size(block.size()));
   for (Index e = 0; e < block.size(); ++e)
     for (int a = 0; a < n; ++a)
-      for (std::size_t k = 0; k < 3; ++k)
-        all[static_cast<std::size_t>(e)][k] += mesh.x[static_cast<std::size_t>(block.element(e)[a])][k] / n;
+      for (std::size_t k = 0; k < 3; ++k) all[as_size(e)][k] += mesh.x[as_size(block.element(e)[a])][k] / n;
   return all;
 }
 
@@ -121,11 +121,11 @@ std::vector<Position> centres(const mesh::Mesh& mesh, const mesh::ElementBlock& 
 double piece_of(const cases::DepositionSpec& d, const mesh::Mesh& mesh) {
   double reach = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (mesh.bodies[static_cast<std::size_t>(block.body)].name != d.body) continue;
+    if (mesh.bodies[as_size(block.body)].name != d.body) continue;
     const std::vector<Position> x = centres(mesh, block);
     for (Index e = 0; e < block.size(); ++e) {
-      const mesh::Point& corner = mesh.x[static_cast<std::size_t>(block.element(e)[0])];
-      const Position& c = x[static_cast<std::size_t>(e)];
+      const mesh::Point& corner = mesh.x[as_size(block.element(e)[0])];
+      const Position& c = x[as_size(e)];
       reach = std::max(reach, std::hypot(corner[0] - c[0], corner[1] - c[1], corner[2] - c[2]));
     }
   }
@@ -169,10 +169,9 @@ std::vector<linear::GrowingMesh::Births> all_births(const cases::CaseSpec& spec,
     run_collectively([&] {
       for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
         const mesh::ElementBlock& block = mesh.blocks[b];
-        if (mesh.bodies[static_cast<std::size_t>(block.body)].name != d.body) continue;
+        if (mesh.bodies[as_size(block.body)].name != d.body) continue;
         births[b] = births_of(spec, d, mesh, block, path, laid ? &*laid : nullptr);
-        for (Index e = 0; e < block.n_counted; ++e)
-          (births[b][static_cast<std::size_t>(e)] < HUGE_VAL ? reached : never) += 1;
+        for (Index e = 0; e < block.n_counted; ++e) (births[b][as_size(e)] < HUGE_VAL ? reached : never) += 1;
       }
     });
     reached = parallel::global_sum(reached);
@@ -218,7 +217,7 @@ void check_depositions(const cases::CaseSpec& spec) {
     if (!spec.cycles.empty()) refuse(d, "grows, which cycles of stages cannot yet", "no [[cycle]]");
     if (!bodies.insert(d.body).second)
       refuse(d, fmt::format("is the second one of the body '{}'", d.body), "one deposition for each body");
-    check_kind(d, static_cast<std::size_t>(spec.dimension()));
+    check_kind(d, as_size(spec.dimension()));
   }
   for (const cases::BodySpec& body : spec.bodies)
     if (!spec.depositions.empty() && !body.stages.empty())
@@ -232,14 +231,13 @@ void check_contacts_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mes
   std::vector<char> grows(mesh.x.size(), 0);
   for (const cases::DepositionSpec& d : spec.depositions)
     for (const mesh::ElementBlock& block : mesh.blocks)
-      if (mesh.bodies[static_cast<std::size_t>(block.body)].name == d.body)
-        for (const Index node : block.nodes) grows[static_cast<std::size_t>(node)] = 1;
+      if (mesh.bodies[as_size(block.body)].name == d.body)
+        for (const Index node : block.nodes) grows[as_size(node)] = 1;
   for (const cases::ContactSpec& c : spec.contacts)
     for (const std::string& side : c.sides()) {
       const auto nodes = mesh.node_sets.find(side);
-      const bool any = nodes != mesh.node_sets.end() && std::ranges::any_of(nodes->second, [&](Index i) {
-                         return grows[static_cast<std::size_t>(i)] != 0;
-                       });
+      const bool any = nodes != mesh.node_sets.end() &&
+                       std::ranges::any_of(nodes->second, [&](Index i) { return grows[as_size(i)] != 0; });
       if (parallel::any_process(any))
         throw InputError(c.where,
                          fmt::format("the contact '{}' acts on '{}', of a body that grows: not possible yet",

@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
@@ -35,15 +36,14 @@ std::vector<Newborn> by_time(const std::vector<linear::GrowingMesh::Births>& bir
   std::vector<Newborn> all;
   for (std::size_t b = 0; b < births.size(); ++b)
     for (std::size_t e = 0; e < births[b].size(); ++e)
-      if (births[b][e] > 0 && births[b][e] < HUGE_VAL)
-        all.push_back({births[b][e], b, static_cast<Index>(e)});
+      if (births[b][e] > 0 && births[b][e] < HUGE_VAL) all.push_back({births[b][e], b, as_index(e)});
   std::ranges::sort(all, {}, [](const Newborn& n) { return std::tuple(n.birth, n.block, n.element); });
   return all;
 }
 
 std::span<const Index> nodes_of(const mesh::Mesh& mesh, const Newborn& n) {
   const mesh::ElementBlock& block = mesh.blocks[n.block];
-  return {block.element(n.element), static_cast<std::size_t>(mesh::node_count(block.shape))};
+  return {block.element(n.element), as_size(mesh::node_count(block.shape))};
 }
 
 /// The times from which nodes belong to something that is held, [local node]; infinite: never. Collective.
@@ -53,15 +53,15 @@ std::vector<double> held_from(const mesh::Mesh& mesh, const std::vector<linear::
   // What is there at the start is held.
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
     for (Index e = 0; e < mesh.blocks[b].size(); ++e)
-      if (births[b].empty() || births[b][static_cast<std::size_t>(e)] <= 0)
-        for (const Index node : nodes_of(mesh, {0, b, e})) held[static_cast<std::size_t>(node)] = -HUGE_VAL;
+      if (births[b].empty() || births[b][as_size(e)] <= 0)
+        for (const Index node : nodes_of(mesh, {0, b, e})) held[as_size(node)] = -HUGE_VAL;
   // Where nothing is, what is born first is what others come to lie on.
   const bool bare = std::ranges::none_of(held, [](double from) { return from < 0; });
   if (!parallel::any_process(!bare)) {
     const double first = parallel::global_min(newborn.empty() ? HUGE_VAL : newborn.front().birth);
     for (const Newborn& n : newborn)
       if (n.birth == first)
-        for (const Index node : nodes_of(mesh, n)) held[static_cast<std::size_t>(node)] = first;
+        for (const Index node : nodes_of(mesh, n)) held[as_size(node)] = first;
   }
   const parallel::GhostExchange ghosts(mesh);
   // An element that touches something held is held itself, and hands on to those that are born with it or
@@ -71,7 +71,7 @@ std::vector<double> held_from(const mesh::Mesh& mesh, const std::vector<linear::
     changed = false;
     for (const Newborn& n : newborn) {
       const std::span<const Index> nodes = nodes_of(mesh, n);
-      const auto at = [&](Index node) -> double& { return held[static_cast<std::size_t>(node)]; };
+      const auto at = [&](Index node) -> double& { return held[as_size(node)]; };
       if (std::ranges::none_of(nodes, [&](Index node) { return at(node) <= n.birth; })) continue;
       for (const Index node : nodes) {
         if (at(node) <= n.birth) continue;
@@ -86,7 +86,7 @@ std::vector<double> held_from(const mesh::Mesh& mesh, const std::vector<linear::
 /// The deposition of a block's body.
 const cases::DepositionSpec& deposition_of(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                            std::size_t block) {
-  const std::string& body = mesh.bodies[static_cast<std::size_t>(mesh.blocks[block].body)].name;
+  const std::string& body = mesh.bodies[as_size(mesh.blocks[block].body)].name;
   return *std::ranges::find(spec.depositions, body, &cases::DepositionSpec::body);
 }
 
@@ -139,7 +139,7 @@ void LaidDown::warn() const {
   // Its begin as a point of the path.
   const double way = static_cast<double>(from) * piece_;
   const auto behind = std::upper_bound(way_.begin(), way_.end(), way);
-  const auto move = static_cast<std::size_t>(std::max<std::ptrdiff_t>(behind - way_.begin() - 1, 0));
+  const auto move = as_size(std::max<std::ptrdiff_t>(behind - way_.begin() - 1, 0));
   const TravelPoint& p = path_.points()[move];
   const TravelPoint& next = path_.points()[std::min(move + 1, path_.points().size() - 1)];
   const double length = distance(p.x, next.x), share = length > 0 ? (way - way_[move]) / length : 0.0;
@@ -163,8 +163,7 @@ void check_births(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
     for (const Newborn& n : newborn) {
       if (&deposition_of(spec, mesh, n.block) != &d || n.element >= mesh.blocks[n.block].n_counted) continue;
       const std::span<const Index> nodes = nodes_of(mesh, n);
-      if (std::ranges::any_of(nodes, [&](Index i) { return held[static_cast<std::size_t>(i)] <= n.birth; }))
-        continue;
+      if (std::ranges::any_of(nodes, [&](Index i) { return held[as_size(i)] <= n.birth; })) continue;
       count += 1;
       first = std::min(first, n.birth);
     }

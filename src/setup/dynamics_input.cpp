@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::setup {
 
 namespace {
@@ -30,7 +32,7 @@ void check_velocity(const cases::BodySpec& body, const cases::CaseSpec& spec) {
     throw InputError(body.where,
                      fmt::format("the body '{}' has an initial velocity, but no inertia", body.name),
                      "a section [dynamics], or no initial_velocity");
-  const auto dimension = static_cast<std::size_t>(spec.dimension());
+  const auto dimension = as_size(spec.dimension());
   if (body.initial_velocity.size() != dimension)
     throw InputError(body.where,
                      fmt::format("the initial velocity of the body '{}' has {} components", body.name,

@@ -11,6 +11,7 @@
 
 #include "mesh/block_geometry.hpp"
 #include "mesh/element_search.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/formats/field_reader.hpp"
 #include "system/common_failure.hpp"
@@ -130,8 +131,7 @@ std::vector<double> closed_weights(const mesh::Mesh& mesh, int body, AnalysisKin
     for (Index e = 0; e < block.size(); ++e)
       for (int a = 0; a < n; ++a)
         // A file may number the corners of its cells the other way round.
-        weight[static_cast<std::size_t>(block.element(e)[a])] +=
-            std::abs(weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes]);
+        weight[as_size(block.element(e)[a])] += std::abs(weights[as_size(e / k_lanes * n + a)][e % k_lanes]);
   }
   return weight;
 }
@@ -149,7 +149,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
     const double far = k_far_outside * diagonal(source.mesh);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       // An element that holds the node, or the nearest one to it.
-      const mesh::Point& x = mesh.x[static_cast<std::size_t>(nodes[k])];
+      const mesh::Point& x = mesh.x[as_size(nodes[k])];
       const auto found = search.find(x);
       if (place.outside_is_error && found.distance > 1e-6 * std::hypot(x[0], x[1], x[2]))
         throw InputError(place.where,

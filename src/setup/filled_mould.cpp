@@ -10,6 +10,7 @@
 
 #include "input/column_table.hpp"
 #include "input/keys.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::setup {
@@ -114,7 +115,7 @@ void add_heat_of_walls(std::span<const FilledWall> walls, const mesh::Mesh& mesh
     std::vector<double> squares(nodes.size());
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const mesh::Point& x = mesh.x[static_cast<std::size_t>(nodes[k])];
+      const mesh::Point& x = mesh.x[as_size(nodes[k])];
       for (std::size_t d = 0; d < x.size(); ++d)
         squares[k] += (x[d] - wall.centre[d]) * (x[d] - wall.centre[d]);
       if (weights[k] > 0) nearest = std::min(nearest, squares[k]);

@@ -13,6 +13,7 @@
 
 #include "material/external_law.hpp"
 #include "material/laws/liquid_law.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/summary.hpp"
 #include "setup/body_input.hpp"
@@ -84,7 +85,7 @@ std::uint64_t sum_of(std::uint64_t own) {
 std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
   // A sum of the hashes does not depend on the order in which processes have nodes and elements.
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i) {
+  for (std::size_t i = 0; i < as_size(mesh.n_owned_nodes); ++i) {
     Hash node;
     node.add_bits(mesh.input_node[i]);
     for (const double x : mesh.x[i]) node.add_bits(x);
@@ -94,10 +95,10 @@ std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
   for (const mesh::ElementBlock& block : mesh.blocks)
     for (Index e = 0; e < block.n_counted; ++e) {
       Hash element;
-      element.add_bits(block.input_element[static_cast<std::size_t>(e)]);
+      element.add_bits(block.input_element[as_size(e)]);
       element.add_bits(block.body);
       for (int k = 0; k < mesh::node_count(block.shape); ++k)
-        element.add_bits(mesh.input_node[static_cast<std::size_t>(block.element(e)[k])]);
+        element.add_bits(mesh.input_node[as_size(block.element(e)[k])]);
       sum += element.value();
     }
   return sum_of(sum);
@@ -108,8 +109,7 @@ std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
 std::string initial_text(const mesh::Mesh& mesh, const std::vector<double>& temperature) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   double sum = 0, weights = 0;
-  for (std::size_t i = 0; i < std::min(temperature.size(), static_cast<std::size_t>(mesh.n_owned_nodes));
-       ++i) {
+  for (std::size_t i = 0; i < std::min(temperature.size(), as_size(mesh.n_owned_nodes)); ++i) {
     Hash number;
     number.add_bits(mesh.input_node[i]);
     const double weight = 1 + static_cast<double>(number.value() >> 11) * 0x1p-53;

@@ -11,6 +11,7 @@
 #include "cases/roles.hpp"
 #include "input/keys.hpp"
 #include "mesh/files/body_partition.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/log.hpp"
 
 namespace solidus::setup {
@@ -33,7 +34,7 @@ std::map<std::string, cases::Role> wanted_roles(const std::vector<std::string>& 
     if (equals == 0 || role == names.end())
       throw InputError({"--as"}, fmt::format("'{}' gives no body a role", assignment),
                        "--as NAME=ROLE, a role being " + one_of(names, what));
-    wanted[assignment.substr(0, equals)] = all[static_cast<std::size_t>(role - names.begin())];
+    wanted[assignment.substr(0, equals)] = all[as_size(role - names.begin())];
   }
   return wanted;
 }

@@ -9,6 +9,7 @@
 
 #include "cases/roles.hpp"
 #include "mesh/nearest_point.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/formats/stress_reader.hpp"
 #include "setup/place_input.hpp"
@@ -50,13 +51,12 @@ void check(const cases::CaseSpec& spec, const cases::BodySpec& body, const mater
 }
 
 std::vector<Position> middles(const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
-  std::vector<Position> x(static_cast<std::size_t>(block.size()));
+  std::vector<Position> x(as_size(block.size()));
   const int n = mesh::vertex_count(block.shape);
   for (Index e = 0; e < block.size(); ++e)
     for (int a = 0; a < n; ++a)
       for (std::size_t i = 0; i < 3; ++i)
-        x[static_cast<std::size_t>(e)][i] +=
-            mesh.x[static_cast<std::size_t>(block.element(e)[a])][i] / static_cast<double>(n);
+        x[as_size(e)][i] += mesh.x[as_size(block.element(e)[a])][i] / static_cast<double>(n);
   return x;
 }
 
@@ -127,8 +127,7 @@ void fill(const cases::InitialStressSpec& s, const mesh::Mesh& mesh, int body, A
   });
   if (file)
     logging::info("stress of '{}': elements have that of the nearest place of '{}', {:.3g} m away at most",
-                  mesh.bodies[static_cast<std::size_t>(body)].name, s.file,
-                  parallel::global_max(file->farthest()));
+                  mesh.bodies[as_size(body)].name, s.file, parallel::global_max(file->farthest()));
 }
 
 }  // namespace

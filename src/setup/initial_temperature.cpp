@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cases/roles.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/field_mapping.hpp"
 #include "setup/filled_mould.hpp"
@@ -47,7 +48,7 @@ std::vector<double> owned_weights(const mesh::Mesh& mesh, const std::vector<Inde
   const std::vector<double> all = closed_weights(mesh, body, kind);
   std::vector<double> weights(nodes.size(), 0.0);
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (nodes[k] < mesh.n_owned_nodes) weights[k] = all[static_cast<std::size_t>(nodes[k])];
+    if (nodes[k] < mesh.n_owned_nodes) weights[k] = all[as_size(nodes[k])];
   return weights;
 }
 
@@ -127,7 +128,7 @@ InitialTemperatures::Body InitialTemperatures::at_nodes(const mesh::Mesh& mesh, 
   body.enthalpies = body.temperatures;
   body.range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const auto node = static_cast<std::size_t>(nodes[k]);
+    const auto node = as_size(nodes[k]);
     body.temperatures[node] = curve.temperature(enthalpies[k]);
     body.enthalpies[node] = enthalpies[k];
     body.range.low = std::min(body.range.low, body.temperatures[node]);
@@ -182,7 +183,7 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
     return at_nodes(mesh, nodes, mapped.values, curve);
   }
   std::vector<Position> x;
-  for (const Index node : nodes) x.push_back(mesh.x[static_cast<std::size_t>(node)]);
+  for (const Index node : nodes) x.push_back(mesh.x[as_size(node)]);
   std::vector<double> temperatures(nodes.size()), enthalpies;
   run_collectively([&] { place_law(place, kind)->values(x, 0, temperatures); });
   // A given temperature that rounding puts off a change at one temperature is taken for it; the melt
@@ -190,8 +191,7 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
   for (double& t : temperatures) enthalpies.push_back(curve.upper(t = snapped(t, curve)));
   Body body = at_nodes(mesh, nodes, enthalpies, curve);
   // The temperatures themselves are kept, which the way over the enthalpy would round.
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    body.temperatures[static_cast<std::size_t>(nodes[k])] = temperatures[k];
+  for (std::size_t k = 0; k < nodes.size(); ++k) body.temperatures[as_size(nodes[k])] = temperatures[k];
   const auto [low, high] = std::ranges::minmax_element(temperatures);
   body.range = {
       parallel::global_min(temperatures.empty() ? std::numeric_limits<double>::infinity() : *low),
@@ -200,13 +200,13 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
 }
 
 double InitialTemperatures::temperature(Index node, int body) const {
-  const Body& b = bodies_[static_cast<std::size_t>(body)];
-  return b.temperatures.empty() ? b.temperature : b.temperatures[static_cast<std::size_t>(node)];
+  const Body& b = bodies_[as_size(body)];
+  return b.temperatures.empty() ? b.temperature : b.temperatures[as_size(node)];
 }
 
 double InitialTemperatures::enthalpy(Index node, int body) const {
-  const Body& b = bodies_[static_cast<std::size_t>(body)];
-  return b.enthalpies.empty() ? b.enthalpy : b.enthalpies[static_cast<std::size_t>(node)];
+  const Body& b = bodies_[as_size(body)];
+  return b.enthalpies.empty() ? b.enthalpy : b.enthalpies[as_size(node)];
 }
 
 std::vector<InitialTemperatureRange> InitialTemperatures::ranges() const {

@@ -11,6 +11,7 @@
 #include "material/enthalpy.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::setup {
 
@@ -38,7 +39,7 @@ class InitialTemperatures {
   /// The same as enthalpy per volume, from the material's curve [J/m³].
   double enthalpy(Index node, int body) const;
   /// Whether a body has a uniform temperature.
-  bool uniform(int body) const { return bodies_[static_cast<std::size_t>(body)].enthalpies.empty(); }
+  bool uniform(int body) const { return bodies_[as_size(body)].enthalpies.empty(); }
   std::vector<InitialTemperatureRange> ranges() const;
 
  private:

@@ -13,6 +13,7 @@
 #include "material/cards/library.hpp"
 #include "mesh/surfaces/face_rules.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/log.hpp"
 
 namespace solidus::setup {
@@ -78,7 +79,7 @@ std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const cases::CaseSpec
       wanted.emplace_back(pair, i);
       taken.insert(pair);
     }
-  const auto metal = [&](int b) { return cases::is_poured(roles[static_cast<std::size_t>(b)]); };
+  const auto metal = [&](int b) { return cases::is_poured(roles[as_size(b)]); };
   // Metal that was drawn as several bodies is one where they share nodes.
   for (const mesh::SplitNodes& s : shared)
     if (metal(s.bodies.first) && metal(s.bodies.second)) taken.insert(s.bodies);
@@ -103,8 +104,7 @@ std::string law_of(const cases::CaseSpec& spec, const cases::BodyInterfaceSpec& 
   if (!spec.has_heat()) return "";
   const std::vector<cases::InterfaceCard> cards = cases::interface_cards();
   const std::vector<cases::Role> roles = roles_of(spec);
-  const cases::BodySpec &one = spec.bodies[static_cast<std::size_t>(a)],
-                        &two = spec.bodies[static_cast<std::size_t>(b)];
+  const cases::BodySpec &one = spec.bodies[as_size(a)], &two = spec.bodies[as_size(b)];
   const cases::InterfaceCard* card = nullptr;
   std::vector<std::string> names;
   for (const cases::InterfaceCard& c : cards) {
@@ -116,8 +116,7 @@ std::string law_of(const cases::CaseSpec& spec, const cases::BodyInterfaceSpec& 
     throw InputError(section.where, fmt::format("the library has no interface law '{}'", section.law),
                      one_of(names, section.law));
   if (section.law.empty())
-    card = cases::best_card(cards, {one.material, roles[static_cast<std::size_t>(a)]},
-                            {two.material, roles[static_cast<std::size_t>(b)]});
+    card = cases::best_card(cards, {one.material, roles[as_size(a)]}, {two.material, roles[as_size(b)]});
   // Without a fitting card the user has to choose.
   if (card == nullptr)
     throw InputError(
@@ -167,8 +166,8 @@ std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::R
   std::vector<std::string> split;
   for (const mesh::SplitNodes& s : shared)
     if (apart.contains(s.bodies))
-      split.push_back(fmt::format("{} and {} ({} nodes)", names[static_cast<std::size_t>(s.bodies.first)],
-                                  names[static_cast<std::size_t>(s.bodies.second)], s.nodes));
+      split.push_back(fmt::format("{} and {} ({} nodes)", names[as_size(s.bodies.first)],
+                                  names[as_size(s.bodies.second)], s.nodes));
   if (!split.empty()) {
     mesh::split_nodes(mesh, groups, apart);
     logging::info("bodies that shared nodes have their own now: {}", fmt::join(split, ", "));
@@ -192,9 +191,8 @@ std::vector<FoundInterface> find_interfaces(const cases::CaseSpec& spec, mesh::R
     logging::info(
         "interface {} / {}: {} of {} and {} of {} face each other, gap {:.2g} mm in the mean, {:.2g} mm at "
         "most (looked within {:.2g} mm)",
-        names[static_cast<std::size_t>(f.bodies.first)], names[static_cast<std::size_t>(f.bodies.second)],
-        size(f.covered_a), size(f.area_a), size(f.covered_b), size(f.area_b), gap_in_mm(f.mean_gap),
-        gap_in_mm(f.largest_gap), 1e3 * f.distance);
+        names[as_size(f.bodies.first)], names[as_size(f.bodies.second)], size(f.covered_a), size(f.area_a),
+        size(f.covered_b), size(f.area_b), gap_in_mm(f.mean_gap), gap_in_mm(f.largest_gap), 1e3 * f.distance);
   }
   std::vector<std::string> free;
   for (const std::string& body : names)
@@ -212,8 +210,7 @@ void add_contacts(const std::vector<FoundInterface>& found, cases::CaseSpec& spe
     // is in it, the law of heat by the roles of the two bodies.
     const cases::BodyInterfaceSpec& section = spec.interfaces[f.section];
     cases::ContactSpec contact;
-    const std::string pair = spec.bodies[static_cast<std::size_t>(f.a)].name + "_" +
-                             spec.bodies[static_cast<std::size_t>(f.b)].name;
+    const std::string pair = spec.bodies[as_size(f.a)].name + "_" + spec.bodies[as_size(f.b)].name;
     contact.name = section.name.empty() || section.all() ? pair : section.name;
     contact.surfaces = {f.surface_a, f.surface_b};
     contact.stabilisation = usual.stabilisation;

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "mesh/surfaces/vertex_sets.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/log.hpp"
 
 namespace solidus::setup {
@@ -93,7 +94,7 @@ std::vector<char> nodes_of_bodies(const cases::CaseSpec& spec, const RawMesh& me
   std::vector<char> carried(mesh.x.size(), 0);
   for (const cases::BodySpec& body : spec.bodies)
     for (const mesh::RawBlock& block : mesh.groups.at(body.mesh_group()).blocks)
-      for (const Index node : block.nodes) carried[static_cast<std::size_t>(node)] = 1;
+      for (const Index node : block.nodes) carried[as_size(node)] = 1;
   return carried;
 }
 
@@ -106,7 +107,7 @@ void warn_of_forgotten_bodies(const cases::CaseSpec& spec, const RawMesh& mesh) 
     const bool left_out =
         std::any_of(group.blocks.begin(), group.blocks.end(), [&](const mesh::RawBlock& block) {
           return std::any_of(block.nodes.begin(), block.nodes.end(),
-                             [&](Index node) { return carried[static_cast<std::size_t>(node)] == 0; });
+                             [&](Index node) { return carried[as_size(node)] == 0; });
         });
     if (left_out)
       logging::warn(
@@ -132,11 +133,11 @@ void warn_of_loose_faces(const cases::CaseSpec& spec, const RawMesh& mesh) {
     std::size_t faces = 0, loose = 0;
     for (const mesh::RawBlock& block : group->second.blocks) {
       // A face is loose where one of its nodes lies on no body.
-      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      const auto n = as_size(node_count(block.shape));
       for (std::size_t first = 0; first < block.nodes.size(); first += n, ++faces)
         loose += std::any_of(block.nodes.begin() + static_cast<std::ptrdiff_t>(first),
                              block.nodes.begin() + static_cast<std::ptrdiff_t>(first + n),
-                             [&](Index node) { return carried[static_cast<std::size_t>(node)] == 0; });
+                             [&](Index node) { return carried[as_size(node)] == 0; });
     }
     if (loose > 0)
       logging::warn("{} of the {} faces of the surface '{}' lie on no body of the case", loose, faces, name);
@@ -156,7 +157,7 @@ void refuse_shared_elements(const cases::CaseSpec& spec, const RawMesh& mesh) {
   // Counted by pairs of bodies, the first of which is told.
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> n_shared;  // (later body, earlier body)
   for (std::size_t i = 0; i < sets.size(); ++i)
-    if (const std::size_t other = body_of_set[static_cast<std::size_t>(first[i])]; other != body_of_set[i])
+    if (const std::size_t other = body_of_set[as_size(first[i])]; other != body_of_set[i])
       ++n_shared[{body_of_set[i], other}];
   if (n_shared.empty()) return;
   const auto& [bodies, n] = *n_shared.begin();

@@ -18,6 +18,7 @@
 #include "mesh/message.hpp"
 #include "mesh/parts/distribute.hpp"
 #include "mesh/refinement/refine.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/output/output_error.hpp"
 #include "setup/interfaces.hpp"
 #include "setup/mesh_checks.hpp"
@@ -245,7 +246,7 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
   std::vector<FoundInterface> all(unpacker.size());
   for (FoundInterface& f : all) {
     const auto numbers = unpacker.vector<GlobalIndex>();
-    f.section = static_cast<std::size_t>(numbers[0]);
+    f.section = as_size(numbers[0]);
     f.a = static_cast<int>(numbers[1]);
     f.b = static_cast<int>(numbers[2]);
     f.surface_a = unpacker.string();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/surfaces/soundness.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/log.hpp"
 
 namespace solidus::setup {
@@ -28,7 +29,7 @@ std::vector<char> nodes_in_contact(const cases::CaseSpec& spec, const mesh::RawM
     for (const std::string& side : contact.sides())
       if (const auto group = mesh.groups.find(side); group != mesh.groups.end())
         for (const mesh::RawBlock& block : group->second.blocks)
-          for (const Index node : block.nodes) marked[static_cast<std::size_t>(node)] = 1;
+          for (const Index node : block.nodes) marked[as_size(node)] = 1;
   return marked;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/mesh_soundness.hpp"
 #include "system/log.hpp"
 
@@ -31,17 +32,16 @@ std::vector<SkinFace> marked_skin(const cases::CaseSpec& spec, const mesh::RawMe
   std::vector<Index> nodes;
   for (const cases::BodySpec& body : spec.bodies)
     for (const mesh::RawBlock& block : mesh.groups.at(body.mesh_group()).blocks) {
-      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      const auto n = as_size(node_count(block.shape));
       const mesh::Shape shape = mesh::face_shape(block.shape);
       const int vertices = vertex_count(shape);
       for (std::size_t e = 0; e * n < block.nodes.size(); ++e)
         for (int f = 0; f < face_count(block.shape); ++f) {
           nodes.clear();
-          for (const int a : face_nodes(block.shape, f))
-            nodes.push_back(block.nodes[e * n + static_cast<std::size_t>(a)]);
+          for (const int a : face_nodes(block.shape, f)) nodes.push_back(block.nodes[e * n + as_size(a)]);
           // All vertices of the face must be marked; nodes on edges need not.
           if (!std::all_of(nodes.begin(), nodes.begin() + vertices,
-                           [&](Index i) { return marked[static_cast<std::size_t>(i)] != 0; }))
+                           [&](Index i) { return marked[as_size(i)] != 0; }))
             continue;
           SkinFace& face = faces[mesh::face_key(nodes.data(), vertices)];
           if (face.n_elements++ == 0)
@@ -67,7 +67,7 @@ void make_surfaces_of_node_sets(const cases::CaseSpec& spec, mesh::RawMesh& mesh
     std::vector<char> marked(mesh.x.size(), 0);
     std::size_t n_nodes = 0;
     for (const mesh::RawBlock& block : group->second.blocks)
-      for (const Index i : block.nodes) n_nodes += std::exchange(marked[static_cast<std::size_t>(i)], 1) == 0;
+      for (const Index i : block.nodes) n_nodes += std::exchange(marked[as_size(i)], 1) == 0;
     mesh::RawGroup surface{mesh.dimension - 1, {}};
     for (const SkinFace& face : marked_skin(spec, mesh, marked)) {
       auto block = std::ranges::find(surface.blocks, face.shape, &mesh::RawBlock::shape);
@@ -76,7 +76,7 @@ void make_surfaces_of_node_sets(const cases::CaseSpec& spec, mesh::RawMesh& mesh
       block->nodes.insert(block->nodes.end(), face.nodes.begin(), face.nodes.end());
       block->input_element.push_back(face.element);
       // Nodes that became part of a face are marked, so that others can be told.
-      for (const Index i : face.nodes) marked[static_cast<std::size_t>(i)] = 2;
+      for (const Index i : face.nodes) marked[as_size(i)] = 2;
     }
     std::size_t n_faces = 0;
     for (const mesh::RawBlock& block : surface.blocks) n_faces += block.input_element.size();

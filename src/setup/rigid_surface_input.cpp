@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::setup {
 
 namespace {
@@ -22,7 +24,7 @@ std::string text(const cases::RigidSurfaceSpec& s) {
 }
 
 void check_size(const cases::RigidSurfaceSpec& s, const char* key, std::size_t size, int dimension) {
-  if (size != static_cast<std::size_t>(dimension))
+  if (size != as_size(dimension))
     throw InputError(s.where, fmt::format("'{}' of {} has {} components", key, text(s), size),
                      fmt::format("{} in this analysis", dimension));
 }

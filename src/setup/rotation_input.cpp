@@ -9,6 +9,7 @@
 
 #include "cases/roles.hpp"
 #include "input/keys.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/load_laws.hpp"
 
 namespace solidus::setup {
@@ -46,7 +47,7 @@ void check_rotation(const cases::CaseSpec& spec) {
   if (!spec.rotation) return;
   const cases::RotationSpec& r = *spec.rotation;
   check_axis(r, spec.analysis.kind);
-  if (const auto n = static_cast<std::size_t>(spec.dimension()); !r.point.empty() && r.point.size() != n)
+  if (const auto n = as_size(spec.dimension()); !r.point.empty() && r.point.size() != n)
     throw InputError(r.where, fmt::format("the point of [rotation] has {} coordinates", r.point.size()),
                      fmt::format("{} in this analysis", n));
   std::vector<std::string> bodies;

@@ -8,6 +8,7 @@
 #include "contact/surfaces/surface.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -128,10 +129,10 @@ SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name,
         // The area is that of the mesh as it bends, by quadrature; corners and centres are for
         // distances alone.
         for (int p = 0; p < geometry.n_points; ++p)
-          m.area += geometry.weight[static_cast<std::size_t>(f * geometry.n_points + p)];
+          m.area += geometry.weight[as_size(f * geometry.n_points + p)];
         mesh::Point centre{};
         for (int n = 0; n < vertices; ++n) {
-          const mesh::Point& x = mesh.x[static_cast<std::size_t>(faces.element(f)[n])];
+          const mesh::Point& x = mesh.x[as_size(faces.element(f)[n])];
           for (std::size_t d = 0; d < 3; ++d) centre[d] += x[d] / vertices;
           corners.push_back(x);
         }

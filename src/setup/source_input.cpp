@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/time_events.hpp"
 #include "setup/section_names.hpp"
 
@@ -50,7 +51,7 @@ void check_path(const cases::PathSpec& path, const std::string& owner, const Sou
     throw InputError(where, fmt::format("{} {}", owner, what), allowed);
   };
   // Either a file or a line.
-  const auto least = static_cast<std::size_t>(dimension);
+  const auto least = as_size(dimension);
   const bool line = !path.from.empty() || !path.to.empty() || path.speed;
   if (path.file.empty() != line)
     fail(line ? "has a file and a line for its path" : "has no path",
@@ -102,7 +103,7 @@ heat::TravellingShape travelling_shape(const cases::SourceSpec& s, int dimension
       s.front_share.value_or(shape.front > 0 ? shape.front / (shape.front + shape.rear) : 0.5);
   // The beam comes from above where no direction is given.
   shape.direction = {};
-  shape.direction[static_cast<std::size_t>(dimension) - 1] = -1;
+  shape.direction[as_size(dimension) - 1] = -1;
   if (s.direction.empty()) return shape;
   shape.direction = place(s.direction);
   const double length = std::hypot(shape.direction[0], shape.direction[1], shape.direction[2]);

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus {
 
 namespace fs = std::filesystem;
@@ -160,7 +162,7 @@ double CoreLoad::free_cores(double own_seconds) const {
   for (const Core& core : cores_) {
     double of_core = 0;
     for (const int processor : core) {
-      const auto p = static_cast<std::size_t>(processor);
+      const auto p = as_size(processor);
       // A processor of which nothing is known, now or at the start, makes the look worthless: all cores count
       // as free then.
       if (p >= now.size() || p >= at_start_.size()) return n;

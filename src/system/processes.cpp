@@ -8,6 +8,8 @@
 #include <numeric>
 #include <thread>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::processes {
 
 namespace {
@@ -31,7 +33,7 @@ template <class Bytes>
 void broadcast_bytes(Bytes& bytes, int from) {
   auto size = static_cast<std::int64_t>(bytes.size());
   MPI_Bcast(&size, 1, MPI_INT64_T, from, all_processes());
-  bytes.resize(static_cast<std::size_t>(size));
+  bytes.resize(as_size(size));
   MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_CHAR, from, all_processes());
 }
 
@@ -39,12 +41,12 @@ void broadcast_bytes(Bytes& bytes, int from) {
 struct Pieces {
   std::vector<int> counts, starts;
 
-  explicit Pieces(std::size_t mine) : counts(static_cast<std::size_t>(count())), starts(counts.size()) {
+  explicit Pieces(std::size_t mine) : counts(as_size(count())), starts(counts.size()) {
     const auto n = static_cast<int>(mine);
     MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, all_processes());
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
   }
-  std::size_t total() const { return static_cast<std::size_t>(starts.back() + counts.back()); }
+  std::size_t total() const { return as_size(starts.back() + counts.back()); }
 };
 
 }  // namespace
@@ -163,7 +165,7 @@ std::vector<double> gather(std::span<const double> mine) {
   return all;
 }
 std::vector<std::int64_t> gather(std::int64_t mine) {
-  std::vector<std::int64_t> all(static_cast<std::size_t>(count()));
+  std::vector<std::int64_t> all(as_size(count()));
   MPI_Allgather(&mine, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, all_processes());
   return all;
 }

@@ -7,6 +7,7 @@
 
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::check {
@@ -37,7 +38,7 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
   std::map<Key, int> faces;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
-    const auto n = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
+    const auto n = as_size(mesh::vertex_count(mesh::face_shape(block.shape)));
     for (Index e = 0; e < block.size(); ++e)
       for (int f = 0; f < mesh::face_count(block.shape); ++f) {
         Key key{-1, -1, -1, -1};
@@ -53,7 +54,7 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body) {
   for (const auto& [key, elements] : faces)
     if (elements == 1)
       for (const Index node : key)
-        if (node >= 0 && node < mesh.n_owned_nodes) on_skin[static_cast<std::size_t>(node)] = 1;
+        if (node >= 0 && node < mesh.n_owned_nodes) on_skin[as_size(node)] = 1;
   parallel::GhostExchange(mesh).update(on_skin, 1);
   return {on_skin.begin(), on_skin.end()};
 }

@@ -12,6 +12,7 @@
 #include "heat/loads/channel_fluid.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/element_search.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/channel_input.hpp"
 
@@ -106,8 +107,7 @@ void walls(const Subject& s, Findings& findings) {
     if (face.body != s.body) return;
     Position middle{};
     for (const Index node : face.vertices())
-      for (std::size_t k = 0; k < 3; ++k)
-        middle[k] += s.mesh.x[static_cast<std::size_t>(node)][k] / face.n_vertices;
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += s.mesh.x[as_size(node)][k] / face.n_vertices;
     for (const heat::ChannelLine::Station& station : stations) {
       const auto away = [&](const Position& x) {
         return std::hypot(station.x[0] - x[0], station.x[1] - x[1], station.x[2] - x[2]);

@@ -8,6 +8,7 @@
 
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::check {
@@ -121,9 +122,7 @@ void films_below_radiation(const cases::CaseSpec& spec, const CaseMeasures& m, F
         });
     const int body = m.surfaces[t].body;
     // A cover on a riser may let as little pass.
-    if (h < k_least_film || h >= k_radiation || radiates || body < 0 ||
-        m.is_poured(static_cast<std::size_t>(body)))
-      continue;
+    if (h < k_least_film || h >= k_radiation || radiates || body < 0 || m.is_poured(as_size(body))) continue;
     findings.push_back(
         {false, film.where,
          fmt::format("the film '{}' has {:g} W/m2/K, and nothing radiates there", film.name, h),

@@ -6,6 +6,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "mechanics/elements/simplices.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
 
@@ -26,7 +27,7 @@ double shrinkage(const material::Material& metal) {
 void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures&, Findings& findings) {
   if (!a.mechanics) return;
   for (const results::CastBody& cast : setup::cast_bodies(spec, a.materials, a.start)) {
-    const auto body = static_cast<std::size_t>(cast.body);
+    const auto body = as_size(cast.body);
     const double shrinks = shrinkage(a.materials[body]);
     if (shrinks == 0 || cases::only_conducts(spec.bodies[body])) continue;
     const bool others = std::ranges::any_of(a.mesh.blocks, [&](const mesh::ElementBlock& block) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/mechanics_input.hpp"
 
@@ -28,9 +29,9 @@ std::pair<double, std::vector<double>> nodes_of_feeder(const mesh::Mesh& mesh, c
   std::vector<double> of_body(n_bodies, 0.0);
   if (const auto nodes = mesh.node_sets.find(group); nodes != mesh.node_sets.end())
     for (const Index node : nodes->second) {
-      const auto i = static_cast<std::size_t>(node);
+      const auto i = as_size(node);
       if (node >= mesh.n_owned_nodes || poured[i] < 0) continue;
-      of_body[static_cast<std::size_t>(poured[i])] += 1;
+      of_body[as_size(poured[i])] += 1;
       for (std::size_t d = 0; d < 3; ++d) height -= g[d] * mesh.x[i][d];
     }
   return {parallel::global_sum(height), std::move(of_body)};
@@ -44,7 +45,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
   for (const mesh::ElementBlock& block : a.mesh.blocks)
     for (const Pour& pour : m.pours)
       if (static_cast<int>(pour.body) == block.body)
-        for (const Index node : block.nodes) poured[static_cast<std::size_t>(node)] = block.body;
+        for (const Index node : block.nodes) poured[as_size(node)] = block.body;
   const std::array<double, 3> g = setup::gravity(spec.analysis);
   double all = 0;                             // nodes of all that is poured
   double all_low = 1e300, all_high = -1e300;  // its ends, against gravity

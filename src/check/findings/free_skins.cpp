@@ -13,6 +13,7 @@
 #include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "setup/mechanics_input.hpp"
@@ -61,11 +62,11 @@ void melts_open_below(const cases::CaseSpec& spec, const setup::Assembly& a, con
   const auto covered = mesh::body_face_keys(a.mesh, covered_surfaces(spec));
   Facing up, down;
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
-    if (!m.is_poured(static_cast<std::size_t>(face.body))) return;
+    if (!m.is_poured(as_size(face.body))) return;
     // The normal of each face of the melt's skin against gravity: upright walls are neither above
     // nor below.
     std::vector<mesh::Point> corners;
-    for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
+    for (const Index node : face.vertices()) corners.push_back(a.mesh.x[as_size(node)]);
     const mesh::SkinFace skin = mesh::face_through(std::move(corners));
     const double along = (skin.normal[0] * g[0] + skin.normal[1] * g[1] + skin.normal[2] * g[2]) / size;
     if (std::abs(along) < k_upright) return;
@@ -99,8 +100,8 @@ void held_free_skins(const cases::CaseSpec& spec, const setup::Assembly& a, cons
     // Only what holds from the start, and where no contact acts, which another finding judges.
     if (!all || !cases::holds(c.stages, a.first_stage()) || in_contact(spec, c.group)) continue;
     const setup::SurfaceMeasures surface = setup::measure_surface(a.mesh, c.group, spec.analysis.kind);
-    if (!m.is_poured(static_cast<std::size_t>(surface.body))) continue;
-    const auto body = static_cast<std::size_t>(surface.body);
+    if (!m.is_poured(as_size(surface.body))) continue;
+    const auto body = as_size(surface.body);
     // Small patches hold a casting in place, as they must.
     if (cases::only_conducts(spec.bodies[body]) || surface.area < k_least_share_of_skin * m.bodies[body].skin)
       continue;

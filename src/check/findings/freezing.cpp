@@ -11,6 +11,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/body_input.hpp"
 
 namespace solidus::check {
@@ -327,8 +328,8 @@ void melts_side_by_side(const cases::CaseSpec& spec, const setup::Assembly& a, c
         {false, spec.contacts[c].where,
          fmt::format("the contact '{}' joins '{}' and '{}', which are both poured: melt does not flow across "
                      "it, and one does not feed the other",
-                     spec.contacts[c].name, spec.bodies[static_cast<std::size_t>(contact.slave_body)].name,
-                     spec.bodies[static_cast<std::size_t>(contact.master_body)].name),
+                     spec.contacts[c].name, spec.bodies[as_size(contact.slave_body)].name,
+                     spec.bodies[as_size(contact.master_body)].name),
          "a riser shares the nodes of its casting: mesh.conforming, or one geometry"});
   }
   for (const Pour& one : m.pours)

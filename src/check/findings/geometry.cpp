@@ -8,6 +8,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
@@ -30,7 +31,7 @@ constexpr double k_small = 3e-3;  // a casting [m]
 /// In quotes.
 std::string name_of(const cases::CaseSpec& spec, int body) {
   if (body == setup::k_several_bodies) return "several bodies";
-  return body >= 0 ? "'" + spec.bodies[static_cast<std::size_t>(body)].name + "'" : "a tool";
+  return body >= 0 ? "'" + spec.bodies[as_size(body)].name + "'" : "a tool";
 }
 
 /// Facets of two meshes on one curved skin overlap by a tenth of a face at most.
@@ -51,7 +52,7 @@ void far_apart(const cases::CaseSpec& spec, const CaseMeasures& m, Findings& fin
   for (std::size_t c = 0; c < m.contacts.size(); ++c) {
     const setup::ContactMeasures& contact = m.contacts[c];
     if (!(contact.paired > 0) || contact.slave_body < 0 || !spec.contacts[c].heat) continue;
-    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(contact.slave_body)];
+    const BodyMeasures& body = m.bodies[as_size(contact.slave_body)];
     const double size = std::cbrt(body.volume);
     if (contact.least_start > k_apart && contact.least_start > k_apart_of_body * size)
       findings.push_back(
@@ -192,7 +193,7 @@ void coarse_moulds(const cases::CaseSpec& spec, const CaseMeasures& m, Findings&
                         : contact.master_body == body ? contact.slave_body
                                                       : -1;
       if (other < 0) continue;
-      const BodyMeasures& mould = m.bodies[static_cast<std::size_t>(other)];
+      const BodyMeasures& mould = m.bodies[as_size(other)];
       // One finding a casting is enough, as one size mends all.
       if (mould.shortest_edge < k_coarse_mould * pour.freezing.mould_reach) continue;
       findings.push_back(
@@ -200,8 +201,8 @@ void coarse_moulds(const cases::CaseSpec& spec, const CaseMeasures& m, Findings&
            fmt::format(
                "the elements of the body '{}' have {:.3g} mm and more, but heat goes only {:.3g} mm deep "
                "until '{}' is solid",
-               spec.bodies[static_cast<std::size_t>(other)].name, 1e3 * mould.shortest_edge,
-               1e3 * pour.freezing.mould_reach, spec.bodies[pour.body].name),
+               spec.bodies[as_size(other)].name, 1e3 * mould.shortest_edge, 1e3 * pour.freezing.mould_reach,
+               spec.bodies[pour.body].name),
            "smaller elements at the cavity, or [[mesh.layers]] on it"});
       break;
     }

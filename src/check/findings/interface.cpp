@@ -12,6 +12,7 @@
 #include "contact/laws/spots_contact.hpp"
 #include "contact/laws/tabulated.hpp"
 #include "coupling/scheme_names.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 #include "setup/friction_input.hpp"
@@ -57,10 +58,10 @@ class Groups {
   explicit Groups(std::size_t n_bodies) : first_(n_bodies) { std::iota(first_.begin(), first_.end(), 0); }
   void join(int a, int b) {
     const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
-    first_[static_cast<std::size_t>(high)] = low;
+    first_[as_size(high)] = low;
   }
   int root(int body) const {
-    while (first_[static_cast<std::size_t>(body)] != body) body = first_[static_cast<std::size_t>(body)];
+    while (first_[as_size(body)] != body) body = first_[as_size(body)];
     return body;
   }
 
@@ -77,11 +78,11 @@ std::vector<std::vector<int>> meetings(const cases::CaseSpec& spec, const mesh::
   std::vector<double> meet(n * n, 0.0);
   const auto note = [&](const std::set<int>& bodies) {
     for (const int a : bodies)
-      for (const int b : bodies) meet[static_cast<std::size_t>(a) * n + static_cast<std::size_t>(b)] = 1;
+      for (const int b : bodies) meet[as_size(a) * n + as_size(b)] = 1;
   };
   std::vector<std::set<int>> of_node(mesh.x.size());
   for (const mesh::ElementBlock& block : mesh.blocks)
-    for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)].insert(block.body);
+    for (const Index node : block.nodes) of_node[as_size(node)].insert(block.body);
   for (const std::set<int>& bodies : of_node)
     if (bodies.size() > 1) note(bodies);
   // Contacts join the bodies of all the faces on their two sides.

@@ -8,6 +8,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "contact/interface/heat_transfer.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -44,7 +45,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
     if (contact.law.empty() || sides.slave_body < 0 || sides.master_body < 0) continue;
     // A partner is known by its material and its role, as cards name either.
     const auto partner = [&](int b) {
-      const auto body = static_cast<std::size_t>(b);
+      const auto body = as_size(b);
       return cases::InterfacePartner{spec.bodies[body].material,
                                      cases::role_of(spec.bodies[body], a.materials[body])};
     };
@@ -61,8 +62,8 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
     by_pair.by_name_alone = false;
     if (cases::best_card({by_pair}, one, two) != nullptr) continue;
     // Conductances are compared closed and at the hotter start, where they decide over the cooling.
-    const double temperature = std::max(a.start[static_cast<std::size_t>(sides.slave_body)].high,
-                                        a.start[static_cast<std::size_t>(sides.master_body)].high);
+    const double temperature =
+        std::max(a.start[as_size(sides.slave_body)].high, a.start[as_size(sides.master_body)].high);
     const double h = closed_conductance(used->heat, temperature),
                  usual = closed_conductance(best->heat, temperature);
     if (h < k_alike * usual && usual < k_alike * h) continue;

@@ -11,6 +11,7 @@
 
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/body_input.hpp"
 
 namespace solidus::check {
@@ -60,10 +61,10 @@ void leave_melt(const cases::CaseSpec& spec, const setup::Assembly& a, const Cas
     std::string names;
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
       const int other = partner(m.contacts[c], pour.body);
-      if (other < 0 || m.is_poured(static_cast<std::size_t>(other))) continue;
+      if (other < 0 || m.is_poured(as_size(other))) continue;
       if (setup::holds(spec, spec.contacts[c], a.mesh, &before) &&
           !setup::holds(spec, spec.contacts[c], a.mesh, &now))
-        names = with_next(names, spec.bodies[static_cast<std::size_t>(other)].name);
+        names = with_next(names, spec.bodies[as_size(other)].name);
     }
     if (names.empty()) continue;
     findings.push_back(
@@ -89,7 +90,7 @@ void come_too_late(const cases::CaseSpec& spec, const setup::Assembly& a, const 
     for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
       const int number = partner(m.contacts[c], pour.body);
       if (number < 0) continue;
-      const auto other = static_cast<std::size_t>(number);
+      const auto other = as_size(number);
       if (told[other] != 0 || m.is_poured(other) || is_there(spec, other, before) ||
           !is_there(spec, other, now))
         continue;
@@ -145,7 +146,7 @@ void cold_dies(const cases::CaseSpec& spec, const setup::Assembly& a, const Case
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (spec.bodies[b].role != cases::Role::die || m.is_poured(b)) continue;
     const auto comes_back = std::ranges::find_if(a.stages, [&](const cases::StageRun& stage) {
-      const auto i = static_cast<std::size_t>(&stage - a.stages.data());
+      const auto i = as_size(&stage - a.stages.data());
       return i > 0 && stage.cycle > 1 && is_there(spec, b, stage) && !is_there(spec, b, a.stages[i - 1]);
     });
     if (comes_back == a.stages.end()) continue;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
@@ -41,8 +42,7 @@ std::vector<Held> held_nodes(const cases::CaseSpec& spec, const setup::Assembly&
     // Components of one node may be held by different conditions, so that bits are collected.
     unsigned bits = 0;
     if (held) bits = (c.ux || c.ur ? 1U : 0U) | (c.uy ? 2U : 0U) | (c.uz ? (components == 2 ? 2U : 4U) : 0U);
-    for (const Index node : nodes->second)
-      directions[static_cast<std::size_t>(node)] |= static_cast<std::uint8_t>(bits);
+    for (const Index node : nodes->second) directions[as_size(node)] |= static_cast<std::uint8_t>(bits);
   }
   // Then the nodes of each body are counted once, and among them those that are held in all directions.
   const unsigned all = components == 2 ? 3U : 7U;
@@ -53,7 +53,7 @@ std::vector<Held> held_nodes(const cases::CaseSpec& spec, const setup::Assembly&
     for (const mesh::ElementBlock& block : a.mesh.blocks) {
       if (block.body != static_cast<int>(b)) continue;
       for (const Index node : block.nodes) {
-        const auto i = static_cast<std::size_t>(node);
+        const auto i = as_size(node);
         if (node >= a.mesh.n_owned_nodes || last[i] == static_cast<int>(b)) continue;
         last[i] = static_cast<int>(b);
         of_body[b].nodes += 1;
@@ -105,7 +105,7 @@ void held_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const Cas
             {false, c.where,
              fmt::format(
                  "'{}' holds the surface '{}' of '{}', on which the contact '{}' acts: no gap can open",
-                 c.name, surface, spec.bodies[static_cast<std::size_t>(body)].name, spec.contacts[k].name),
+                 c.name, surface, spec.bodies[as_size(body)].name, spec.contacts[k].name),
              "supports in addition to the contact, on a few nodes"});
       }
     }

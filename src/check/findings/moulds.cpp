@@ -12,6 +12,7 @@
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "mesh/locate.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -101,7 +102,7 @@ void cold_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const Case
     if (c.kind != cases::ThermalConditionSpec::Kind::temperature || !is_number(c.temperature) ||
         !c.stages.empty() || c.temperature.table.value(0) > k_coldest || m.surfaces[t].body < 0)
       continue;
-    const auto b = static_cast<std::size_t>(m.surfaces[t].body);
+    const auto b = as_size(m.surfaces[t].body);
     const material::Material& of = a.materials[b];
     const double start = a.start[b].low, k = of.conductivity.value(start);
     if (m.is_poured(b) || k >= k_sand) continue;

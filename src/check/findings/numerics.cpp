@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -45,7 +46,7 @@ void search_distances(const cases::CaseSpec& spec, const CaseMeasures& m, Findin
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const cases::ContactSpec& contact = spec.contacts[c];
     if (!contact.search_distance || m.contacts[c].slave_body < 0) continue;
-    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
+    const BodyMeasures& body = m.bodies[as_size(m.contacts[c].slave_body)];
     // The largest side of the slave's body is the measure, since castings shrink by a share of it.
     double size = 0;
     for (std::size_t d = 0; d < 3; ++d) size = std::max(size, body.high[d] - body.low[d]);
@@ -67,7 +68,7 @@ void touching_gaps(const cases::CaseSpec& spec, const CaseMeasures& m, Findings&
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const cases::ContactSpec& contact = spec.contacts[c];
     if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
-    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)];
+    const BodyMeasures& body = m.bodies[as_size(m.contacts[c].slave_body)];
     double size = std::numeric_limits<double>::max();
     for (std::size_t d = 0; d < 3; ++d)
       if (const double side = body.high[d] - body.low[d]; side > 0) size = std::min(size, side);

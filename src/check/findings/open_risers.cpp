@@ -13,6 +13,7 @@
 #include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/mechanics_input.hpp"
 
@@ -56,11 +57,11 @@ std::map<std::size_t, OpenSkin> open_skins(const cases::CaseSpec& spec, const se
              cooled_faces = mesh::body_face_keys(a.mesh, cooled);
   // Areas by direction: up or sideways, held or free, cooled or bare.
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
-    const auto found = skins.find(static_cast<std::size_t>(face.body));
+    const auto found = skins.find(as_size(face.body));
     if (found == skins.end()) return;
     // The normal of each face of a riser's skin, against the direction that is up.
     std::vector<mesh::Point> corners;
-    for (const Index node : face.vertices()) corners.push_back(a.mesh.x[static_cast<std::size_t>(node)]);
+    for (const Index node : face.vertices()) corners.push_back(a.mesh.x[as_size(node)]);
     const mesh::SkinFace skin = mesh::face_through(std::move(corners));
     const double along = skin.normal[0] * up[0] + skin.normal[1] * up[1] + skin.normal[2] * up[2];
     OpenSkin& sum = found->second;

@@ -8,6 +8,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -60,7 +61,7 @@ void castings_that_do_not_freeze(const cases::CaseSpec& spec, const setup::Assem
   for (const material::Material& material : a.materials)
     if (material.solidification() != nullptr) return risers_that_do_not_freeze(spec, a, findings);
   // The hottest body, or the first where none is hot: the comparison below asks again.
-  const auto hot = static_cast<std::size_t>(std::max(hottest(a), 0));
+  const auto hot = as_size(std::max(hottest(a), 0));
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const cases::BodySpec& body = spec.bodies[b];
     // Three signs that a body was meant to be cast: its role, sand that is hot, and a mould around
@@ -88,7 +89,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
   // Where the mould was filled its skin may begin hotter than the metal, which has cooled on its way.
   if (spec.filling) return;
   // The hottest body is taken for the casting: its role, then its superheat, then whether it freezes at all.
-  const auto poured = static_cast<std::size_t>(hottest(a));
+  const auto poured = as_size(hottest(a));
   const cases::BodySpec& body = spec.bodies[poured];
   if (body.role && !cases::is_poured(*body.role)) {
     const auto casting =
@@ -100,7 +101,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
            fmt::format("the hottest body, '{}', has the role of a {}, and '{}' that of a casting: it "
                        "starts at {:.0f} degC",
                        body.name, name(*body.role), casting->name,
-                       celsius(a.start[static_cast<std::size_t>(casting - spec.bodies.begin())].high)),
+                       celsius(a.start[as_size(casting - spec.bodies.begin())].high)),
            "are the roles swapped?"});
   }
   const double start = a.start[poured].high;

@@ -8,6 +8,7 @@
 #include "check/finding_family.hpp"
 #include "coupling/all_fields.hpp"
 #include "mesh/locate.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -30,7 +31,7 @@ std::vector<std::size_t> bodies_at(const setup::Assembly& a, const CaseMeasures&
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const double slack = 1e-3 * m.bodies[b].mean_edge;
     bool inside = true;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(a.mesh.dimension); ++d)
+    for (std::size_t d = 0; d < as_size(a.mesh.dimension); ++d)
       inside = inside && point[d] > m.bodies[b].low[d] - slack && point[d] < m.bodies[b].high[d] + slack;
     if (inside && mesh::locate(a.mesh, point, static_cast<int>(b)).distance <= slack) found.push_back(b);
   }

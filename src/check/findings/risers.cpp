@@ -11,6 +11,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/mechanics_input.hpp"
 
 namespace solidus::check {
@@ -152,7 +153,7 @@ Box box_of(const cases::CaseSpec& spec, const BodyMeasures& body) {
 /// Share of the first box, in each direction, that the second one covers; of the direction with the least.
 double covered(const Box& box, const Box& by, int dimension) {
   double least = 1;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+  for (std::size_t d = 0; d < as_size(dimension); ++d) {
     const double length = box.high[d] - box.low[d];
     const double common = std::min(box.high[d], by.high[d]) - std::max(box.low[d], by.low[d]);
     least = std::min(least, length > 0 ? common / length : 1.0);
@@ -263,7 +264,7 @@ void pressed_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const C
                         : contact.master_body == body ? contact.slave_body
                                                       : -1;
       if (other < 0) return false;
-      const auto o = static_cast<std::size_t>(other);
+      const auto o = as_size(other);
       return !m.is_poured(o) && a.materials[o].conductivity.value(a.start[o].low) < k_sand;
     });
   };
@@ -273,16 +274,15 @@ void pressed_sand(const cases::CaseSpec& spec, const setup::Assembly& a, const C
     const double pressure = c.pressure.table.max_value();
     if (!(pressure > k_on_riser)) continue;
     const int body = setup::measure_surface(a.mesh, c.group, spec.analysis.kind).body;
-    if (body < 0 || !m.is_poured(static_cast<std::size_t>(body)) || !sand_around(body)) continue;
+    if (body < 0 || !m.is_poured(as_size(body)) || !sand_around(body)) continue;
     // On a riser the limit is lower, as gas presses there and no piston.
-    const bool on_riser = spec.bodies[static_cast<std::size_t>(body)].role == cases::Role::riser;
+    const bool on_riser = spec.bodies[as_size(body)].role == cases::Role::riser;
     if (!on_riser && !(pressure > k_stands)) continue;
-    findings.push_back(
-        {false, c.where,
-         fmt::format("'{}' presses '{}' with {:.3g} MPa, and its mould conducts as sand does", c.name,
-                     spec.bodies[static_cast<std::size_t>(body)].name, 1e-6 * pressure),
-         on_riser ? "risers under gas have 0.02 to 0.5 MPa; is the unit of the pressure right?"
-                  : "sand withstands 0.1 to 1 MPa; is the unit of the pressure right?"});
+    findings.push_back({false, c.where,
+                        fmt::format("'{}' presses '{}' with {:.3g} MPa, and its mould conducts as sand does",
+                                    c.name, spec.bodies[as_size(body)].name, 1e-6 * pressure),
+                        on_riser ? "risers under gas have 0.02 to 0.5 MPa; is the unit of the pressure right?"
+                                 : "sand withstands 0.1 to 1 MPa; is the unit of the pressure right?"});
   }
 }
 

@@ -8,6 +8,7 @@
 #include "cases/roles.hpp"
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/mechanics_input.hpp"
 
 namespace solidus::check {
@@ -55,8 +56,7 @@ void insulating_moulds(const cases::CaseSpec& spec, const setup::Assembly& a, co
     // In contact with something poured, from either side.
     const bool on_metal = std::ranges::any_of(m.contacts, [&](const setup::ContactMeasures& c) {
       const int self = static_cast<int>(b), other = c.slave_body == self ? c.master_body : c.slave_body;
-      return (c.slave_body == self || c.master_body == self) && other >= 0 &&
-             m.is_poured(static_cast<std::size_t>(other));
+      return (c.slave_body == self || c.master_body == self) && other >= 0 && m.is_poured(as_size(other));
     });
     const material::Material& of = a.materials[b];
     // The heat that a half space takes up in a given time goes as the root of the product of
@@ -82,7 +82,7 @@ void swapped(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMe
   // least reaches farther.
   const auto within = [&](std::size_t inner, std::size_t outer) {
     bool inside = true;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(a.mesh.dimension); ++d)
+    for (std::size_t d = 0; d < as_size(a.mesh.dimension); ++d)
       inside = inside && m.bodies[inner].low[d] >= m.bodies[outer].low[d] &&
                m.bodies[inner].high[d] <= m.bodies[outer].high[d];
     return inside && m.bodies[inner].volume < m.bodies[outer].volume;
@@ -112,7 +112,7 @@ void strong_films(const cases::CaseSpec& spec, const setup::Assembly& a, const C
     if (c.kind != Kind::film || m.surfaces[i].body < 0 || !is_number(c.coefficient) || !is_number(c.factor))
       continue;
     // The film acts on this body alone, with a number that is known.
-    const auto b = static_cast<std::size_t>(m.surfaces[i].body);
+    const auto b = as_size(m.surfaces[i].body);
     const double h = c.coefficient.table.value(0) * c.factor.table.value(0);
     if (is_number(c.factor) && c.factor.table.value(0) == 0)
       findings.push_back({false, c.where, fmt::format("the factor of '{}' is 0: it does nothing", c.name),
@@ -143,7 +143,7 @@ void heated_moulds(const cases::CaseSpec& spec, const setup::Assembly& a, const 
     const bool surrounded = c.kind == Kind::film || c.kind == Kind::radiation;
     if ((!surrounded && c.kind != Kind::temperature) || !c.stages.empty() || m.surfaces[i].body < 0) continue;
     // Held temperatures and surroundings are compared alike, on bodies that are not poured.
-    const auto b = static_cast<std::size_t>(m.surfaces[i].body);
+    const auto b = as_size(m.surfaces[i].body);
     const Function& temperature = surrounded ? c.ambient : c.temperature;
     if (m.is_poured(b) || !is_number(temperature)) continue;
     const double level = temperature.table.value(0);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/symmetric_eigen.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -36,18 +37,16 @@ Groups joined_bodies(const cases::CaseSpec& spec, const setup::Assembly& a, cons
   groups.held.assign(spec.bodies.size(), 0);
   std::iota(groups.of_body.begin(), groups.of_body.end(), 0);
   const auto moves = [&](int body) {
-    const cases::BodySpec& of = spec.bodies[static_cast<std::size_t>(body)];
+    const cases::BodySpec& of = spec.bodies[as_size(body)];
     return !cases::only_conducts(of) && cases::holds(of.stages, a.first_stage());
   };
   std::vector<char> held(spec.bodies.size(), 0);
   const auto join = [&](int one, int other) {
     for (const auto& [body, partner] : {std::pair(one, other), std::pair(other, one)})
-      if (body >= 0 && (partner < 0 || !moves(partner))) held[static_cast<std::size_t>(body)] = 1;
+      if (body >= 0 && (partner < 0 || !moves(partner))) held[as_size(body)] = 1;
     if (one < 0 || other < 0 || !moves(one) || !moves(other)) return;
-    const int low = std::min(groups.of_body[static_cast<std::size_t>(one)],
-                             groups.of_body[static_cast<std::size_t>(other)]),
-              high = std::max(groups.of_body[static_cast<std::size_t>(one)],
-                              groups.of_body[static_cast<std::size_t>(other)]);
+    const int low = std::min(groups.of_body[as_size(one)], groups.of_body[as_size(other)]),
+              high = std::max(groups.of_body[as_size(one)], groups.of_body[as_size(other)]);
     std::replace(groups.of_body.begin(), groups.of_body.end(), high, low);
   };
   // Contacts of the first stage join their bodies. A contact with several bodies on one side says too little,
@@ -64,8 +63,7 @@ Groups joined_bodies(const cases::CaseSpec& spec, const setup::Assembly& a, cons
     for (std::size_t other = 0; other < b; ++other)
       if (m.bodies[b].shared_nodes[other] > 0) join(static_cast<int>(b), static_cast<int>(other));
   for (std::size_t b = 0; b < held.size(); ++b)
-    if (held[b] != 0 || !moves(static_cast<int>(b)))
-      groups.held[static_cast<std::size_t>(groups.of_body[b])] = 1;
+    if (held[b] != 0 || !moves(static_cast<int>(b))) groups.held[as_size(groups.of_body[b])] = 1;
   return groups;
 }
 
@@ -81,7 +79,7 @@ class RigidMotions {
   void hold(Index node, int axis) {
     // A held node takes from the rigid motions what moves it along that axis: translation, and rotation by
     // its arm.
-    const mesh::Point& x = mesh_.x[static_cast<std::size_t>(node)];
+    const mesh::Point& x = mesh_.x[as_size(node)];
     const Eigen::Vector3d arm = (Eigen::Vector3d(x[0], x[1], x[2]) - centre_) / size_;
     const Eigen::Vector3d turn = arm.cross(Eigen::Vector3d::Unit(axis));
     Eigen::VectorXd r = Eigen::VectorXd::Zero(n_);
@@ -104,7 +102,7 @@ class RigidMotions {
  private:
   static bool is_loose(const Eigen::MatrixXd& form) {
     const SymmetricEigen modes =
-        symmetric_eigen({form.data(), form.data() + form.size()}, static_cast<std::size_t>(form.rows()));
+        symmetric_eigen({form.data(), form.data() + form.size()}, as_size(form.rows()));
     return modes.values.front() < k_nothing * modes.values.back() || !(modes.values.back() > 0);
   }
   const mesh::Mesh& mesh_;
@@ -135,8 +133,8 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
     // The directions that are held at nodes of the group are summed up in the matrix of its rigid motions.
     std::vector<char> of_group(a.mesh.x.size(), 0);
     for (const mesh::ElementBlock& block : a.mesh.blocks)
-      if (groups.of_body[static_cast<std::size_t>(block.body)] == static_cast<int>(first))
-        for (const Index node : block.nodes) of_group[static_cast<std::size_t>(node)] = 1;
+      if (groups.of_body[as_size(block.body)] == static_cast<int>(first))
+        for (const Index node : block.nodes) of_group[as_size(node)] = 1;
     RigidMotions motions(a.mesh, centre, size);
     for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
       const auto nodes = a.mesh.node_sets.find(c.group);
@@ -145,7 +143,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
         continue;
       // Nodes count once, on the process that owns them.
       for (const Index node : nodes->second) {
-        if (node >= a.mesh.n_owned_nodes || of_group[static_cast<std::size_t>(node)] == 0) continue;
+        if (node >= a.mesh.n_owned_nodes || of_group[as_size(node)] == 0) continue;
         if (c.ux) motions.hold(node, 0);
         if (c.uy) motions.hold(node, 1);
         if (c.uz && a.mesh.dimension == 3) motions.hold(node, 2);

@@ -12,6 +12,7 @@
 #include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::check {
@@ -34,7 +35,7 @@ std::set<Key> faces_with_a_role(const cases::CaseSpec& spec, const mesh::Mesh& m
 
 mesh::SkinFace measured(const mesh::Mesh& mesh, const mesh::BodyFace& face) {
   std::vector<mesh::Point> corners;
-  for (const Index node : face.vertices()) corners.push_back(mesh.x[static_cast<std::size_t>(node)]);
+  for (const Index node : face.vertices()) corners.push_back(mesh.x[as_size(node)]);
   return mesh::face_through(std::move(corners));
 }
 
@@ -45,7 +46,7 @@ Skins bare_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const Ca
   const std::set<Key> roles = faces_with_a_role(spec, a.mesh);
   Skins skins(spec.bodies.size());
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace> same) {
-    const auto body = static_cast<std::size_t>(face.body);
+    const auto body = as_size(face.body);
     if (same.size() == 1 && m.is_poured(body) && !roles.contains(face.key))
       skins[body].push_back(measured(a.mesh, face));
   });
@@ -55,7 +56,7 @@ Skins bare_skins(const cases::CaseSpec& spec, const setup::Assembly& a, const Ca
 Skins all_skins(const cases::CaseSpec& spec, const setup::Assembly& a) {
   Skins skins(spec.bodies.size());
   mesh::each_body_face(a.mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace>) {
-    skins[static_cast<std::size_t>(face.body)].push_back(measured(a.mesh, face));
+    skins[as_size(face.body)].push_back(measured(a.mesh, face));
   });
   return skins;
 }

@@ -7,6 +7,7 @@
 
 #include "check/finding_family.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/source_input.hpp"
 
@@ -38,7 +39,7 @@ Box heated_box(const cases::SourceSpec& source, const mesh::Mesh& mesh) {
     if (const auto nodes = mesh.node_sets.find(group); nodes != mesh.node_sets.end())
       for (const Index node : nodes->second)
         for (std::size_t k = 0; k < 3; ++k) {
-          const double x = mesh.x[static_cast<std::size_t>(node)][k];
+          const double x = mesh.x[as_size(node)][k];
           box.low[k] = std::min(box.low[k], x);
           box.high[k] = std::max(box.high[k], x);
         }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "setup/body_input.hpp"
 
 namespace solidus::check {
@@ -208,8 +209,8 @@ void late_supports(const cases::CaseSpec& spec, const setup::Assembly& a, const 
     const std::array components{&c.ux, &c.uy, &c.uz, &c.ur};
     if (std::ranges::any_of(components, [](const auto* u) { return *u && !is_number(**u); })) continue;
     const int number = setup::measure_surface(a.mesh, c.group, spec.analysis.kind).body;
-    if (number < 0 || !m.is_poured(static_cast<std::size_t>(number))) continue;
-    const cases::BodySpec& body = spec.bodies[static_cast<std::size_t>(number)];
+    if (number < 0 || !m.is_poured(as_size(number))) continue;
+    const cases::BodySpec& body = spec.bodies[as_size(number)];
     // A stage in which the support is new while the casting has been there before.
     for (std::size_t i = 1; i < a.stages.size() && a.stages[i].cycle <= 1; ++i) {
       const cases::StageRun &before = a.stages[i - 1], &now = a.stages[i];

@@ -8,6 +8,7 @@
 
 #include "check/finding_family.hpp"
 #include "mesh/body_faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
@@ -45,7 +46,7 @@ bool exchanges_heat(const cases::CaseSpec& spec, const setup::Assembly& a, const
                     const std::vector<char>& bodies, const cases::StageRun& stage) {
   // Measures of a surface give one body, or that there are several, any of which it may be.
   const auto among = [&](int body) {
-    return body == setup::k_several_bodies || (body >= 0 && bodies[static_cast<std::size_t>(body)] != 0);
+    return body == setup::k_several_bodies || (body >= 0 && bodies[as_size(body)] != 0);
   };
   // Conditions first, then contacts with a law of heat on either side.
   for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {

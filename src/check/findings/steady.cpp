@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -38,7 +39,7 @@ std::vector<std::size_t> groups_of(const cases::CaseSpec& spec, const CaseMeasur
         sides.slave_body == setup::k_several_bodies || sides.master_body == setup::k_several_bodies;
     for (std::size_t b = 1; several && b < group.size(); ++b) join(0, b);
     if (sides.slave_body >= 0 && sides.master_body >= 0)
-      join(static_cast<std::size_t>(sides.slave_body), static_cast<std::size_t>(sides.master_body));
+      join(as_size(sides.slave_body), as_size(sides.master_body));
   }
   return group;
 }
@@ -51,7 +52,7 @@ std::vector<char> held_groups(const cases::CaseSpec& spec, const CaseMeasures& m
   // one.
   const auto hold = [&](int body) {
     if (body >= 0)
-      held[group[static_cast<std::size_t>(body)]] = 1;
+      held[group[as_size(body)]] = 1;
     else  // of several bodies, or of nodes that may be any body's
       std::ranges::fill(held, 1);
   };
@@ -86,7 +87,7 @@ std::optional<Supply> supply_of(const cases::CaseSpec& spec, const CaseMeasures&
       const auto found = std::ranges::find(spec.bodies, c.group, &cases::BodySpec::mesh_group);
       if (found == spec.bodies.end() || !is_number(c.power)) return {};
       body = static_cast<int>(found - spec.bodies.begin());
-      heat = c.power.table.value(0) * m.bodies[static_cast<std::size_t>(body)].volume;
+      heat = c.power.table.value(0) * m.bodies[as_size(body)].volume;
     } else if (c.kind == Kind::flux) {
       if (!is_number(c.flux)) return {};
       heat = c.flux.table.value(0) * m.surfaces[t].area;
@@ -95,7 +96,7 @@ std::optional<Supply> supply_of(const cases::CaseSpec& spec, const CaseMeasures&
     }
     if (body < 0 || !is_number(c.factor)) return {};
     // Only what acts on this group counts; the absolute sum is the measure of balance.
-    if (group[static_cast<std::size_t>(body)] != which) continue;
+    if (group[as_size(body)] != which) continue;
     heat *= c.factor.table.value(0);
     supply.net += heat;
     supply.all += std::abs(heat);

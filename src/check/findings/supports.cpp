@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/symmetric_eigen.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
@@ -28,7 +29,7 @@ constexpr double k_nothing = 1e-6;
 constexpr double k_falls = 0.1;
 
 SymmetricEigen modes_of(const Eigen::MatrixXd& form) {
-  return symmetric_eigen({form.data(), form.data() + form.size()}, static_cast<std::size_t>(form.rows()));
+  return symmetric_eigen({form.data(), form.data() + form.size()}, as_size(form.rows()));
 }
 Eigen::Map<const Eigen::VectorXd> vector_of(const SymmetricEigen& modes, Eigen::Index k) {
   const auto n = static_cast<Eigen::Index>(modes.values.size());
@@ -48,9 +49,7 @@ class Translations {
   bool moves(std::size_t body) const { return moves_[body] != 0; }
   int directions() const { return n_; }
   /// The index of a direction in a point: axisymmetric bodies move along their axis alone.
-  std::size_t axis(int direction) const {
-    return static_cast<std::size_t>(direction) + (axisymmetric_ ? 1 : 0);
-  }
+  std::size_t axis(int direction) const { return as_size(direction) + (axisymmetric_ ? 1 : 0); }
   /// Whether a support acts on a body along a direction.
   bool supported(std::size_t body, const Eigen::VectorXd& along) const {
     const auto first = n_ * static_cast<int>(body);
@@ -116,15 +115,14 @@ void Translations::add_supports(const cases::CaseSpec& spec, const setup::Assemb
   // all bodies from the 64th on.
   std::vector<Bits> of_node(a.mesh.x.size(), 0);
   for (const mesh::ElementBlock& block : a.mesh.blocks)
-    for (const Index node : block.nodes)
-      of_node[static_cast<std::size_t>(node)] |= bit(static_cast<std::size_t>(block.body));
+    for (const Index node : block.nodes) of_node[as_size(node)] |= bit(as_size(block.body));
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
     if (c.kind != cases::MechanicalConditionSpec::Kind::displacement || !cases::holds(c.stages, stage))
       continue;
     // Which bodies the nodes of the group belong to, as far as this process sees them.
     Bits touched = 0;
     if (const auto nodes = a.mesh.node_sets.find(c.group); nodes != a.mesh.node_sets.end())
-      for (const Index node : nodes->second) touched |= of_node[static_cast<std::size_t>(node)];
+      for (const Index node : nodes->second) touched |= of_node[as_size(node)];
     // Radial motion counts as the first direction, and in two dimensions uz as the second.
     const std::array<bool, 3> along{c.ux || c.ur, c.uy || (n_ < 3 && c.uz), n_ == 3 && c.uz};
     // All processes must hold alike, or their matrices would differ.
@@ -144,7 +142,7 @@ Eigen::MatrixXd Translations::normals_of(const mesh::Mesh& mesh, const std::stri
     for (const mesh::ElementBlock& faces : found->second.faces)
       for (Index f = 0; f < faces.n_counted; ++f) {
         const auto at = [&](int k) {
-          const mesh::Point& x = mesh.x[static_cast<std::size_t>(faces.element(f)[k])];
+          const mesh::Point& x = mesh.x[as_size(faces.element(f)[k])];
           return Eigen::Vector3d(x[0], x[1], x[2]);
         };
         const Eigen::Vector3d along = at(1) - at(0);
@@ -186,8 +184,8 @@ void Translations::join(int one, int other, const Eigen::MatrixXd& normals) {
   for (const int body : {one, other}) form_.block(n_ * body, n_ * body, n_, n_) += normals;
   form_.block(n_ * one, n_ * other, n_, n_) -= normals;
   form_.block(n_ * other, n_ * one, n_, n_) -= normals;
-  const int low = std::min(group_[static_cast<std::size_t>(one)], group_[static_cast<std::size_t>(other)]),
-            high = std::max(group_[static_cast<std::size_t>(one)], group_[static_cast<std::size_t>(other)]);
+  const int low = std::min(group_[as_size(one)], group_[as_size(other)]),
+            high = std::max(group_[as_size(one)], group_[as_size(other)]);
   std::replace(group_.begin(), group_.end(), high, low);
 }
 
@@ -205,7 +203,7 @@ Eigen::VectorXd Translations::followed(std::size_t body, const Eigen::VectorXd& 
   const SymmetricEigen modes = modes_of(form_);
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(all.size());
   for (Eigen::Index k = 0; k < all.size(); ++k)
-    if (modes.values[static_cast<std::size_t>(k)] < k_nothing) {
+    if (modes.values[as_size(k)] < k_nothing) {
       const auto mode = vector_of(modes, k);
       motion += mode.dot(all) * mode;
     }
@@ -292,7 +290,7 @@ void falling_bodies(const cases::CaseSpec& spec, const Translations& t, const st
 /// has to lie below them. Friction on upright faces counts, for a mould may clamp what it holds.
 bool carries(const cases::ContactSpec& contact, const setup::ContactMeasures& sides,
              const std::vector<char>& bodies) {
-  const auto is_of_them = [&](int body) { return body >= 0 && bodies[static_cast<std::size_t>(body)] != 0; };
+  const auto is_of_them = [&](int body) { return body >= 0 && bodies[as_size(body)] != 0; };
   constexpr double k_least_share_of_area = 0.01;  // of the area
   const bool slave = is_of_them(sides.slave_body), master = is_of_them(sides.master_body);
   if (slave == master) return false;

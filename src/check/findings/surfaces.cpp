@@ -12,6 +12,7 @@
 #include "check/finding_family.hpp"
 #include "input/units.hpp"
 #include "mesh/body_faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/body_input.hpp"
 
@@ -189,7 +190,7 @@ Ends ends_of(const mesh::Mesh& mesh, const std::vector<Index>& group, const std:
   bool elsewhere = false;
   // The nodes of the group at both ends of the body along the axis; a group that has others is no end.
   for (const Index node : group) {
-    const auto i = static_cast<std::size_t>(node);
+    const auto i = as_size(node);
     if (of_body[i] == 0) continue;
     const double x = mesh.x[i][axis];
     if (x - body.low[axis] < near)
@@ -207,7 +208,7 @@ std::vector<char> nodes_of_body(const mesh::Mesh& mesh, std::size_t body) {
   std::vector<char> of_body(mesh.x.size(), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == static_cast<int>(body))
-      for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+      for (const Index node : block.nodes) of_body[as_size(node)] = 1;
   return of_body;
 }
 
@@ -220,7 +221,7 @@ void clamped_castings(const cases::CaseSpec& spec, const setup::Assembly& a, con
     const BodyMeasures& measures = m.bodies[pour.body];
     const std::vector<char> of_body = nodes_of_body(a.mesh, pour.body);
     // Along each axis the supports at both ends of the casting; the axis of revolution has no second end.
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(a.mesh.dimension); ++axis) {
+    for (std::size_t axis = 0; axis < as_size(a.mesh.dimension); ++axis) {
       const bool round = spec.analysis.kind == AnalysisKind::axisymmetric && axis == 0;
       const double extent = measures.high[axis] - measures.low[axis];
       if (round || !(extent > 0)) continue;

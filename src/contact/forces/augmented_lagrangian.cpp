@@ -8,17 +8,12 @@
 #include <utility>
 
 #include "contact/points/point_law.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
-namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   constexpr double k_longest = 30;
@@ -47,7 +42,7 @@ std::vector<double> AugmentedLagrangian::step_of_points(const ContactState& now,
   const Secants::Dot dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t p = 0; p < a.size(); ++p)
-      if (kinematics.particle(static_cast<Index>(p)).counted) sum += a[p] * b[p];
+      if (kinematics.particle(as_index(p)).counted) sum += a[p] * b[p];
     return parallel::global_sum(sum);
   };
   const auto largest_of = [](const std::vector<double>& values) {
@@ -103,11 +98,11 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
   if (!by_means && !step.start_traction.empty())
     for (std::size_t p = 0; p < step.from.size(); ++p) step.from[p].traction = step.start_traction[p];
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    ContactPointState& from = step.from[at(p)];
+    ContactPointState& from = step.from[as_size(p)];
     if (!by_means) {
       const double before = from.multiplier;
-      from.multiplier = std::max(least_multiplier(from), before + step_of_point[at(p)]);
-      step_of_point[at(p)] = from.multiplier - before;
+      from.multiplier = std::max(least_multiplier(from), before + step_of_point[as_size(p)]);
+      step_of_point[as_size(p)] = from.multiplier - before;
       continue;
     }
     // The mean penetration at the point is interpolated from its nodes, each with the factor of its
@@ -115,13 +110,14 @@ void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step, Au
     double grown = 0;
     const ContactKinematics::Particle particle = kinematics.particle(p);
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
-      grown += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
+      grown += particle.share[b] * step_factor_[as_size(particle.nodes[b])] *
+               penetration[as_size(particle.nodes[b])];
     // An open point keeps no pressure: it would hold the surfaces together when they touch again.
-    if (now.points[at(p)].status == PointStatus::open)
+    if (now.points[as_size(p)].status == PointStatus::open)
       from.multiplier = least_multiplier(from);
     else
       from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * grown);
-    if (tangential) from.traction = now.points[at(p)].traction;
+    if (tangential) from.traction = now.points[as_size(p)].traction;
   }
   if (by_means) return;
   // The first augmentation by points takes friction back to its start as well, which no secant tells.
@@ -156,7 +152,7 @@ double AugmentedLagrangian::pressure_error(const ContactState& now) const {
   // be wrong by.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
-    const double pressure = now.points[at(p)].pressure;
+    const double pressure = now.points[as_size(p)].pressure;
     if (!particle.counted || !(pressure > 0)) continue;
     force += particle.weight * pressure;
     area += particle.weight;

@@ -2,6 +2,8 @@
 /// motion gives: slave nodes first, then those of the master.
 #include "contact/forces/coupled_interface.hpp"
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 std::optional<Surroundings> CoupledInterface::around(const PointMotion& motion) const {
@@ -9,9 +11,9 @@ std::optional<Surroundings> CoupledInterface::around(const PointMotion& motion) 
   Surroundings s{.law = law, .time_step = time_step};
   // Temperatures of both sides at the point; shares of the master are negative, as in the gap. A rigid tool
   // has its own temperature, or takes no heat.
-  const auto n_slave = static_cast<std::size_t>(motion.n_slave);
+  const auto n_slave = as_size(motion.n_slave);
   for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
-    const double part = motion.share[b] * temperature[static_cast<std::size_t>(motion.nodes[b])];
+    const double part = motion.share[b] * temperature[as_size(motion.nodes[b])];
     if (b < n_slave)
       s.temperature[0] += part;
     else

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "contact/points/penalty.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
@@ -59,7 +60,7 @@ void ContactForces::begin(bool isentropic, double share, bool goes_on) {
 
 PointForces ContactForces::at(const PointMotion& motion, Index point) const {
   if (!active_) return {};
-  return law_.forces(motion, step_.from[static_cast<std::size_t>(point)], step_.coupled.around(motion),
+  return law_.forces(motion, step_.from[as_size(point)], step_.coupled.around(motion),
                      step_.iterate_of(point));
 }
 

@@ -7,15 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
-namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 ContactHistory::ContactHistory(const ContactGeometry& geometry, AnalysisKind kind,
                                const ContactParameters& spec, const PairSurfaces& surfaces,
@@ -31,11 +27,11 @@ ContactHistory::ContactHistory(const ContactGeometry& geometry, AnalysisKind kin
 ContactState ContactHistory::initial() const {
   const ContactKinematics& kinematics = geometry_.at(0, geometry_.no_displacement());
   ContactState state;
-  state.points.resize(at(kinematics.n_points()));
+  state.points.resize(as_size(kinematics.n_points()));
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     // Each point with a partner is anchored where it projects; those that overlap or touch start closed,
     // sticking where there is friction, with the pressure of their penetration.
-    ContactPointState& point = state.points[at(p)];
+    ContactPointState& point = state.points[as_size(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     point.number = particle.number;
     point.counted = particle.counted;
@@ -63,7 +59,7 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
     // In the present geometry the gap of the drawing is kept: the offset makes up for how far the sides have
     // moved.
     for (Index p = 0; p < kinematics.n_points(); ++p) {
-      ContactPointState& point = state.points[at(p)];
+      ContactPointState& point = state.points[as_size(p)];
       if (!point.anchored) continue;  // without a partner in the drawing
       const PointMotion motion = kinematics.motion(p, point, ContactKinematics::Asked::motion);
       if (!motion.partnered) continue;
@@ -111,7 +107,7 @@ void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) con
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     // The point has touched if it was closed at the start of the step, or is held by the atmosphere
     // that pressed it there before.
-    ContactPointState& from = step.from[at(p)];
+    ContactPointState& from = step.from[as_size(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
     from.molten = false;
@@ -121,11 +117,11 @@ void ContactHistory::find_skins(const Solidity& of_nodes, ContactStep& step) con
       const ContactKinematics::Particle slave = kinematics.particle(p);
       // With a partner the skin is that of both sides together, since either may be the one that
       // melts; without one it is the slave's.
-      skin = motion.partnered ? skin_at(motion.nodes, motion.share, at(motion.n_slave), of_nodes)
+      skin = motion.partnered ? skin_at(motion.nodes, motion.share, as_size(motion.n_slave), of_nodes)
                               : skin_at(slave.nodes, slave.share, slave.nodes.size(), of_nodes);
       from.molten = motion.partnered && skin.molten;
       if (wets && touched && from.molten) from.suction = spec_.atmosphere;
-      step.liquid[at(p)] = from.suction > 0 && skin.liquid;
+      step.liquid[as_size(p)] = from.suction > 0 && skin.liquid;
     }
     from.multiplier = std::max(from.multiplier, least_multiplier(from));
     if (stiffens) law_.stiffen(skin.strength, from);
@@ -140,14 +136,14 @@ void ContactHistory::find_temperatures(std::span<const double> temperature, doub
   // The mean of both sides with the share of the slave in the resistance; a tool without nodes has the
   // temperature given.
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    ContactPointState& from = step.from[at(p)];
+    ContactPointState& from = step.from[as_size(p)];
     if (known(from)) continue;
     const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
-    const auto n_slave = static_cast<std::size_t>(motion.n_slave);
+    const auto n_slave = as_size(motion.n_slave);
     double side[2] = {0, 0};
     for (std::size_t b = 0; b < motion.nodes.size(); ++b)
-      side[b < n_slave ? 0 : 1] += motion.share[b] * temperature[at(motion.nodes[b])];
+      side[b < n_slave ? 0 : 1] += motion.share[b] * temperature[as_size(motion.nodes[b])];
     const bool meshed = motion.nodes.size() > n_slave;
     from.temperature = std::lerp(meshed ? -side[1] : tool.value_or(side[0]), side[0], slave_share);
   }

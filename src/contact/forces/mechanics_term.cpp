@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/log.hpp"
 
@@ -18,10 +19,6 @@ namespace {
 constexpr int k_patient = 8;
 /// The stabilisation then becomes a tenth with every tangent, down to this share of itself.
 constexpr double k_least_stabilisation = 1e-4;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 
@@ -60,7 +57,7 @@ MechanicsTerm::MechanicsTerm(std::string name, const ContactGeometry& geometry, 
       active_(active),
       stabilisation_(stabilisation),
       symmetric_(symmetric),
-      status_(at(kinematics_.n_points()), PointStatus::open) {}
+      status_(as_size(kinematics_.n_points()), PointStatus::open) {}
 
 void MechanicsTerm::Stabilisation::next() {
   ++n_tangents_;
@@ -83,16 +80,16 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
   // Each point that concerns this process is placed at the displacement x, its law answers, and its force
   // goes to the owned nodes.
   geometry_.at(step_.time, x, ContactKinematics::Points::own);
-  const auto n = static_cast<std::size_t>(geometry_.components());
+  const auto n = as_size(geometry_.components());
   Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
-    const ContactPointState& from = step_.from[at(p)];
+    const ContactPointState& from = step_.from[as_size(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(p));
     // Changes of status are counted for the messages of an iteration that does not converge.
-    if (f.status != status_[at(p)] && from.counted) ++outcome_.changes;
-    status_[at(p)] = f.status;
+    if (f.status != status_[as_size(p)] && from.counted) ++outcome_.changes;
+    status_[as_size(p)] = f.status;
     count.add(from, motion, f);
     if (f.friction.status != FrictionStatus::converged && outcome_.failure == FrictionStatus::converged)
       outcome_.failure = f.friction.status;
@@ -105,7 +102,7 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
       continue;
     for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
       if (motion.nodes[b] >= n_owned_) continue;
-      double* rb = r.data() + at(motion.nodes[b]) * n;
+      double* rb = r.data() + as_size(motion.nodes[b]) * n;
       const Point force =
           // Without friction there is no tangential part to distribute.
           law_.friction ? motion.force_at(b, pressure, f.traction) : scale(pressure, motion.normal_at(b));
@@ -127,7 +124,7 @@ void MechanicsTerm::log(const Count& count) const {
 
 template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
-  const ContactPointState& from = step_.from[at(point)];
+  const ContactPointState& from = step_.from[as_size(point)];
   const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(point));
   if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_.none()) return;
   // An open point without stabilisation adds nothing; all others add w (B_b ⊗ dF) for every pair of
@@ -228,7 +225,7 @@ void MechanicsTerm::add_tangents(linear::BlockMatrix& matrix) {
   Run run;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
-    const ContactPointState& from = step_.from[at(p)];
+    const ContactPointState& from = step_.from[as_size(p)];
     // Points of which no node is owned here have rows on other processes only, which compute them
     // too.
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::rates);
@@ -253,17 +250,18 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     coupled_.matrix = &matrix.displacement();
     coupled_.slots.bind(*coupled_.matrix, n_owned_, kinematics_.n_points());
   }
-  const auto components = static_cast<std::size_t>(geometry_.components());
+  const auto components = as_size(geometry_.components());
   // At each point that slips the traction changes with the temperature of the interface, and this with the
   // nodal temperatures of both sides.
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
-    const PointMotion motion = kinematics_.motion(p, step_.from[at(p)], ContactKinematics::Asked::motion);
+    const PointMotion motion =
+        kinematics_.motion(p, step_.from[as_size(p)], ContactKinematics::Asked::motion);
     const std::optional<Surroundings> around = step_.coupled.around(motion);
     if (!around) continue;
     // Without a joint solution, or without traction, temperature changes no force: friction acts
     // along the traction.
-    const PointForces f = law_.forces(motion, step_.from[at(p)], around);
+    const PointForces f = law_.forces(motion, step_.from[as_size(p)], around);
     if (!f.joint || !(norm(f.traction) > 0)) continue;
     // Θ_c by the sides, at fixed h and through h at their mean.
     const double by_mean = f.joint->traction_by_conductance * f.conductance.by_temperature;
@@ -279,7 +277,7 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     for (std::size_t row = 0; row < n; ++row) {
       const Point direction = motion.pushed_at(row, along);
       for (std::size_t a = 0; a < n; ++a) {
-        const bool slave = a < static_cast<std::size_t>(motion.n_slave);
+        const bool slave = a < as_size(motion.n_slave);
         const double shape = slave ? motion.share[a] : -motion.share[a];
         const double slope = motion.weight * shape * by_side[slave ? 0 : 1];
         double* const to = matrix.force_by_temperature(slots[row * n + a]);

@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::contact {
 
-namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<double> nodal_penetration(const ContactGeometry& geometry, const ContactState& now) {
   const mesh::Mesh& mesh = geometry.mesh();
@@ -25,13 +20,13 @@ std::vector<double> nodal_penetration(const ContactGeometry& geometry, const Con
   // nodal field that is lumped to its diagonal.
   std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
-    const ContactPointState& point = now.points[at(p)];
+    const ContactPointState& point = now.points[as_size(p)];
     if (point.status == PointStatus::open) continue;
     const ContactKinematics::Particle particle = kinematics.particle(p);
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
       const double w = particle.weight * particle.share[b] * particle.share[b];
-      weight[at(particle.nodes[b])] += w;
-      mean[at(particle.nodes[b])] += w * point.penetration;
+      weight[as_size(particle.nodes[b])] += w;
+      mean[as_size(particle.nodes[b])] += w * point.penetration;
     }
   }
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;

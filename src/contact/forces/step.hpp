@@ -6,6 +6,7 @@
 
 #include "contact/forces/coupled_interface.hpp"
 #include "contact/points/contact_state.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -28,7 +29,7 @@ struct ContactStep {
 
   std::optional<FrictionInput::Iterate> iterate_of(Index point) const {
     if (iterate.empty()) return {};
-    return iterate[static_cast<std::size_t>(point)];
+    return iterate[as_size(point)];
   }
   /// The state of a point at t_n, with the traction that it had there.
   ContactPointState at_start(std::size_t point) const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::contact {
@@ -129,7 +130,7 @@ double hardening_of_step(const ContactGeometry& geometry, const ContactStep& ste
   double hardening = 0;
   for (std::size_t p = 0; p < now.size(); ++p) {
     const ContactPointState &from = step.from[p], &to = now[p];
-    if (const auto particle = geometry.kinematics().particle(static_cast<Index>(p));
+    if (const auto particle = geometry.kinematics().particle(as_index(p));
         particle.counted && from.temperature > 0)
       hardening += particle.area * (to.work - from.work - to.dissipation + from.dissipation);
   }
@@ -173,7 +174,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
       made = plastic_entropy_increment(*point_law_.friction, to.slip - from.slip,
                                        rubbing_pressure(to.pressure, to.molten), to.temperature);
     to.plastic_entropy = from.plastic_entropy + made;
-    const ContactKinematics::Particle particle = geometry_.kinematics().particle(static_cast<Index>(p));
+    const ContactKinematics::Particle particle = geometry_.kinematics().particle(as_index(p));
     if (!particle.counted) continue;
     // Energies are those of the old state, of the state between the phases (rubbed, at the temperature
     // before), and of the new one: the differences tell the mechanical part from the whole.

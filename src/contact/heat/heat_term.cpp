@@ -12,16 +12,13 @@
 #include "contact/heat/heat_run.hpp"
 #include "contact/points/positive_shares.hpp"
 #include "contact/surfaces/face.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
 namespace {
 
 constexpr double k_room_temperature = 293.15;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 double cube(double t) {
   return t * t * t;
@@ -52,9 +49,9 @@ void HeatTerm::place(std::vector<HeatPoint> points) {
   share_out();
   fixed_.resize(law_.of_temperature() ? 0 : points_.size());
   radiation_.resize(law_.radiation_factor() > 0 ? points_.size() : 0);
-  for (std::size_t p = 0; p < radiation_.size(); ++p) radiation_[p] = radiation(static_cast<Index>(p));
+  for (std::size_t p = 0; p < radiation_.size(); ++p) radiation_[p] = radiation(as_index(p));
   for (std::size_t p = 0; p < fixed_.size(); ++p)
-    fixed_[p] = conductance(static_cast<Index>(p), k_room_temperature).value;
+    fixed_[p] = conductance(as_index(p), k_room_temperature).value;
 }
 
 void HeatTerm::limit_exchange(std::span<const char> nodes) {
@@ -69,9 +66,10 @@ void HeatTerm::limit_exchange(std::span<const char> nodes) {
 }
 
 bool HeatTerm::limited(Index point) const {
-  if (limited_nodes_.empty() || partners_.partnered[at(point)] == 0) return false;
+  if (limited_nodes_.empty() || partners_.partnered[as_size(point)] == 0) return false;
   const std::span<const Index> nodes = partners_.nodes_of(point);
-  return std::any_of(nodes.begin(), nodes.end(), [&](Index node) { return limited_nodes_[at(node)] != 0; });
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](Index node) { return limited_nodes_[as_size(node)] != 0; });
 }
 
 void HeatTerm::share_out() {
@@ -83,8 +81,8 @@ void HeatTerm::share_out() {
   // sum, so that the limiter bounds temperatures.
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (!limited(p)) continue;
-    const std::size_t first = partners_.first[at(p)], end = partners_.first[at(p) + 1],
-                      middle = first + static_cast<std::size_t>(partners_.n_slave[at(p)]);
+    const std::size_t first = partners_.first[as_size(p)], end = partners_.first[as_size(p) + 1],
+                      middle = first + as_size(partners_.n_slave[as_size(p)]);
     for (const auto& [from, to, sign] : {std::tuple(first, middle, 1.0), std::tuple(middle, end, -1.0)}) {
       n.assign(to - from, 0.0);
       l.assign(to - from, 0.0);
@@ -96,14 +94,14 @@ void HeatTerm::share_out() {
 }
 
 Conductance HeatTerm::conductance(Index point, double temperature) const {
-  const HeatPoint& p = points_[at(point)];
+  const HeatPoint& p = points_[as_size(point)];
   return conductance(point, p.penetration, p.pressure, temperature);
 }
 
 Conductance HeatTerm::conductance(Index point, double penetration, double pressure,
                                   double temperature) const {
   if (curvature_.empty() || !(penetration < 0)) return law_.at(penetration, pressure, temperature);
-  const SurfaceCurvature& curvature = curvature_[at(point)];
+  const SurfaceCurvature& curvature = curvature_[as_size(point)];
   const double width = -penetration;
   Conductance h = law_.at(-curvature.plane_gap(width), pressure, temperature);
   h.by_penetration *= curvature.plane_gap_slope(width);
@@ -115,9 +113,9 @@ SurfaceCurvature HeatTerm::master_curvature(Index point) const {
   if (master_curvature_.empty()) return mean;
   const std::span<const Index> nodes = partners_.nodes_of(point);
   const std::span<const double> share = partners_.share_of(point);
-  for (std::size_t b = static_cast<std::size_t>(partners_.n_slave[at(point)]); b < nodes.size(); ++b) {
-    mean.first -= share[b] * master_curvature_[at(nodes[b])].first;
-    mean.second -= share[b] * master_curvature_[at(nodes[b])].second;
+  for (std::size_t b = as_size(partners_.n_slave[as_size(point)]); b < nodes.size(); ++b) {
+    mean.first -= share[b] * master_curvature_[as_size(nodes[b])].first;
+    mean.second -= share[b] * master_curvature_[as_size(nodes[b])].second;
   }
   return mean;
 }
@@ -125,13 +123,13 @@ SurfaceCurvature HeatTerm::master_curvature(Index point) const {
 HeatTerm::Radiation HeatTerm::radiation(Index point) const {
   // Across a gap of curved surfaces radiation goes between different areas, the mean of both; closed or plane
   // the factor is that of the law.
-  const double gap = -points_[at(point)].penetration;
-  if (!(gap > 0) || partners_.partnered[at(point)] == 0 || (curvature_.empty() && master_curvature_.empty()))
+  const double gap = -points_[as_size(point)].penetration;
+  if (!(gap > 0) || partners_.partnered[as_size(point)] == 0 ||
+      (curvature_.empty() && master_curvature_.empty()))
     return {law_.radiation_factor(), 0};
-  const SurfaceCurvature slave = curvature_.empty() ? SurfaceCurvature{} : curvature_[at(point)],
+  const SurfaceCurvature slave = curvature_.empty() ? SurfaceCurvature{} : curvature_[as_size(point)],
                          master = master_curvature(point);
-  const bool meshed =
-      static_cast<std::size_t>(partners_.n_slave[at(point)]) < partners_.nodes_of(point).size();
+  const bool meshed = as_size(partners_.n_slave[as_size(point)]) < partners_.nodes_of(point).size();
   const double of_slave = slave.area(gap), of_master = meshed ? master.area(gap) : 1 / of_slave;
   const double ratio = std::sqrt(of_slave / of_master);
   const double slope =
@@ -157,15 +155,15 @@ void HeatTerm::begin_stage(const linear::RungeKuttaStage& stage, std::span<const
   if (stage.carried != 0) {
     std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0), made(points_.size(), 0.0);
     for (Index p = 0; p < partners_.n_points(); ++p) {
-      const HeatPoint& point = points_[at(p)];
-      start[at(p)] = point.step.temperature;
+      const HeatPoint& point = points_[as_size(p)];
+      start[as_size(p)] = point.step.temperature;
       // A point that stores nothing has no history to carry: its temperature follows from the
       // fluxes of the stage.
-      if (!active_ || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
+      if (!active_ || !point.has_temperature || partners_.partnered[as_size(p)] == 0) continue;
       const AtPoint s = see(p, before);
-      start[at(p)] *= std::pow(s.interface.temperature / point.step.temperature, stage.carried);
-      flux[at(p)] = stage.carried * phase_->stage_dt * (s.interface.flux[0] + s.interface.flux[1]);
-      made[at(p)] = stage.carried * s.dissipation * phase_->stage_dt / phase_->span.dt;
+      start[as_size(p)] *= std::pow(s.interface.temperature / point.step.temperature, stage.carried);
+      flux[as_size(p)] = stage.carried * phase_->stage_dt * (s.interface.flux[0] + s.interface.flux[1]);
+      made[as_size(p)] = stage.carried * s.dissipation * phase_->stage_dt / phase_->span.dt;
     }
     phase_->start = std::move(start);
     phase_->first_flux = std::move(flux);
@@ -181,13 +179,13 @@ void HeatTerm::begin_stage(const linear::RungeKuttaStage& stage, std::span<const
 }
 
 InterfaceStep HeatTerm::balance_step(Index point) const {
-  InterfaceStep step = points_[at(point)].step;
+  InterfaceStep step = points_[as_size(point)].step;
   if (!phase_) return step;
   const double part = phase_->stage_dt / phase_->span.dt;
   step.time_step = phase_->stage_dt;
   step.dissipation *= part;
   step.structural_entropy *= part;
-  if (phase_->staged) step.temperature = phase_->start[at(point)];
+  if (phase_->staged) step.temperature = phase_->start[as_size(point)];
   return step;
 }
 
@@ -207,10 +205,10 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   s.point = point;
   s.nodes = partners_.nodes_of(point);
   s.b = partners_.share_of(point);
-  s.n_slave = static_cast<std::size_t>(partners_.n_slave[at(point)]);
+  s.n_slave = as_size(partners_.n_slave[as_size(point)]);
   s.nodal = nodal_;
   if (limited(point)) {
-    s.b = std::span(positive_).subspan(partners_.first[at(point)], s.nodes.size());
+    s.b = std::span(positive_).subspan(partners_.first[as_size(point)], s.nodes.size());
     s.nodal = true;
   }
   // A rigid surface without a mesh takes heat only if it has a temperature; while heat does not flow
@@ -218,11 +216,11 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   const bool meshed = s.n_slave < s.nodes.size();
   s.master_takes_heat = meshed || tool_temperature_;
   const bool flows = !phase_ || !phase_->span.adiabatic;
-  if (s.master_takes_heat && flows && !radiation_.empty()) s.radiation = radiation_[at(point)].factor;
+  if (s.master_takes_heat && flows && !radiation_.empty()) s.radiation = radiation_[as_size(point)].factor;
   // The temperatures of both sides are interpolated, and for radiation the fourth powers of the nodes instead
   // of that of the mean.
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
-    const double t = temperature[at(s.nodes[a])];
+    const double t = temperature[as_size(s.nodes[a])];
     const bool slave = a < s.n_slave;
     (slave ? s.slave : s.master) += slave ? s.b[a] * t : -s.b[a] * t;
     if (s.radiation > 0) (slave ? s.slave_fourth : s.master_fourth) += (slave ? s.b[a] : -s.b[a]) * fourth(t);
@@ -232,13 +230,13 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
     s.master_fourth = fourth(s.master);
   }
   // The conductance is that of the mean temperature, or one that was fixed for the whole phase.
-  const HeatPoint& p = points_[at(point)];
+  const HeatPoint& p = points_[as_size(point)];
   if (!flows)
     s.h = {};
   else if (fixed_.empty())
     s.h = conductance(point, 0.5 * (s.slave + s.master));
   else
-    s.h.value = fixed_[at(point)];
+    s.h.value = fixed_[as_size(point)];
   // A point without a temperature of its own is done. Otherwise its resistance divides between the two sides,
   // and the balance of the interface gives its temperature.
   s.has_temperature = p.has_temperature;
@@ -279,7 +277,7 @@ void HeatTerm::add_exchange(const AtPoint& s, std::span<const double> temperatur
     // By nodes (closed integration) each node exchanges at its own temperature with the mean of the
     // other side; otherwise all nodes of the point exchange at the two means, in which a node may
     // give off heat although it is the colder one.
-    const double t = temperature[at(s.nodes[a])];
+    const double t = temperature[as_size(s.nodes[a])];
     double q = 0;
     if (!s.nodal) {
       q = weight_h * (s.slave - s.master) + weight_e * (s.slave_fourth - s.master_fourth);
@@ -311,12 +309,12 @@ void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
   if (!active_) return;
   std::vector<double> heat;
   for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[at(p)] == 0) continue;
+    if (partners_.partnered[as_size(p)] == 0) continue;
     const AtPoint s = see(p, x);
     heat.assign(s.nodes.size(), 0.0);
-    add_point_heat(s, x, partners_.weight[at(p)], heat);
+    add_point_heat(s, x, partners_.weight[as_size(p)], heat);
     for (std::size_t a = 0; a < s.nodes.size(); ++a)
-      if (s.nodes[a] < n_owned_) r[at(s.nodes[a])] += heat[a];
+      if (s.nodes[a] < n_owned_) r[as_size(s.nodes[a])] += heat[a];
   }
 }
 
@@ -339,13 +337,13 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
   // The tangent of the exchange, in pairs of nodes: with h and radiation each pair gives a positive definite
   // 2×2 part, so that the tangent stays one of conduction.
   const std::size_t n = s.nodes.size(), n_slave = s.n_slave;
-  const double w = partners_.weight[at(s.point)];
+  const double w = partners_.weight[as_size(s.point)];
   const double h = w * s.h.value, e = w * s.radiation;
   if (n_slave < n) {
     for (std::size_t a = 0; a < (s.nodal ? n_slave : n); ++a)
       for (std::size_t b = s.nodal ? n_slave : a + 1; b < n; ++b) {
         double slope = h;
-        if (e > 0) slope += 2 * e * (cube(x[at(s.nodes[a])]) + cube(x[at(s.nodes[b])]));
+        if (e > 0) slope += 2 * e * (cube(x[as_size(s.nodes[a])]) + cube(x[as_size(s.nodes[b])]));
         slope *= -s.b[a] * s.b[b];
         k[a * n + a] += slope;
         k[b * n + b] += slope;
@@ -356,10 +354,10 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
     // on all slave nodes.
   } else if (s.master_takes_heat) {
     for (std::size_t a = 0; a < n; ++a) {
-      const double to_a = h + 4 * e * cube(x[at(s.nodes[a])]);
+      const double to_a = h + 4 * e * cube(x[as_size(s.nodes[a])]);
       if (s.nodal) k[a * n + a] += s.b[a] * to_a;
       for (std::size_t b = 0; b < n && !s.nodal; ++b)
-        k[a * n + b] += s.b[a] * s.b[b] * 0.5 * (to_a + h + 4 * e * cube(x[at(s.nodes[b])]));
+        k[a * n + b] += s.b[a] * s.b[b] * 0.5 * (to_a + h + 4 * e * cube(x[as_size(s.nodes[b])]));
     }
   }
   // A temperature of the interface changes what passes to each side: the difference to plain conduction is
@@ -399,7 +397,7 @@ void HeatTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matri
   };
   // Successive points of the same nodes are summed before they go into the matrix.
   for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[at(p)] == 0) continue;
+    if (partners_.partnered[as_size(p)] == 0) continue;
     const AtPoint s = see(p, x);
     if (!run.holds(s.nodes)) {
       flush();

@@ -4,14 +4,11 @@
 #include "contact/heat/heat_run.hpp"
 #include "contact/heat/heat_term.hpp"
 #include "contact/points/positive_shares.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 double cube(double t) {
   return t * t * t;
@@ -25,14 +22,14 @@ double fourth(double t) {
 
 void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperature,
                              std::span<double> heat) const {
-  const HeatPoint& point = points_[at(s.point)];
-  const double w = partners_.weight[at(s.point)];
+  const HeatPoint& point = points_[as_size(s.point)];
+  const double w = partners_.weight[as_size(s.point)];
   // Conductance depends on the gap directly and, where the point is closed, on pressure, which the
   // penetration changes by the slope of the contact law.
   const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
   const double slope = w * (h.by_pressure * point.pressure_slope + h.by_penetration);
   // By the penetration, which is minus the gap.
-  if (s.radiation > 0) add_exchange(s, temperature, 0, -w * radiation_[at(s.point)].by_gap, heat);
+  if (s.radiation > 0) add_exchange(s, temperature, 0, -w * radiation_[as_size(s.point)].by_gap, heat);
   if (slope != 0) {
     add_exchange(s, temperature, slope, 0, heat);
     // An interface with a temperature of its own exchanges with each side by a flux that the
@@ -54,7 +51,7 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
                                std::span<double> heat) const {
   // A share B_b multiplies nodal temperature: the mean of the master moves by −Θ_b, and with it
   // both exchanges.
-  const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
+  const double w = partners_.weight[as_size(s.point)], t = temperature[as_size(s.nodes[b])];
   const double across = w * (s.h.value * t + s.radiation * fourth(t));
   for (std::size_t a = 0; a < (s.nodal ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
   // The derivative of the heat that the node itself gives off.
@@ -109,11 +106,11 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
   // Each point adds ∂r_a by what moves with the displacement (gap, weight, trial traction, place on the
   // master) times the rate of that at every node. Points with the same nodes are summed in one run of blocks,
   // which is then added to the matrix.
-  const auto components = static_cast<std::size_t>(matrix.components());
+  const auto components = as_size(matrix.components());
   std::vector<double> per_gap, per_trial, per_share, per_weight;  // ∂r_a
   Run run;
   for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[at(p)] == 0) continue;
+    if (partners_.partnered[as_size(p)] == 0) continue;
     const HeatRates rates = rates_of(p);
     if (rates.penetration.empty()) continue;
     const AtPoint s = see(p, temperature);
@@ -139,9 +136,9 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
       add(per_weight, [&](std::size_t b) -> const Point& { return rates.weight[b]; });
     }
     // Then the trial traction, which sets the heat of friction where both are solved together.
-    if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
+    if (const auto& joint = points_[as_size(p)].joint; joint && !rates.trial.empty()) {
       per_trial.assign(n, 0.0);
-      const double source = -partners_.weight[at(p)] * joint->source_by_trial;
+      const double source = -partners_.weight[as_size(p)] * joint->source_by_trial;
       add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
       add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
     }

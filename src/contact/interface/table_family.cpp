@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 TableFamily::TableFamily(Table table) : tables_{std::move(table)} {}
@@ -22,8 +24,8 @@ TableFamily::TableFamily(std::vector<double> temperature, std::vector<Table> tab
 
 TableFamily::Value TableFamily::at(double argument, double temperature) const {
   // The first table that is hotter; the other neighbour is the one before it.
-  const auto next = static_cast<std::size_t>(
-      std::upper_bound(temperature_.begin(), temperature_.end(), temperature) - temperature_.begin());
+  const auto next =
+      as_size(std::upper_bound(temperature_.begin(), temperature_.end(), temperature) - temperature_.begin());
   // Beyond the temperatures the nearest table holds; between two everything is linear.
   if (temperature_.size() < 2 || next == 0 || next == temperature_.size()) {
     const auto line = (next == 0 ? tables_.front() : tables_.back()).line(argument);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -15,7 +17,7 @@ constexpr double k_whole = 1;
 std::size_t most_nodes(const ContactPoints& points) {
   int most = 0;
   for (const Pairing& pairing : points.pairings) most = std::max(most, pairing.n_nodes());
-  return static_cast<std::size_t>(most);
+  return as_size(most);
 }
 
 }  // namespace
@@ -28,17 +30,16 @@ FixedKinematics::FixedKinematics(ContactPoints points, int components)
       slip_rate_(most_nodes(points_)) {
   pairing_.reserve(points_.weight.size());
   for (std::size_t k = 0; k < points_.pairings.size(); ++k)
-    pairing_.insert(pairing_.end(), static_cast<std::size_t>(points_.pairings[k].n_points),
-                    static_cast<Index>(k));
+    pairing_.insert(pairing_.end(), as_size(points_.pairings[k].n_points), as_index(k));
 }
 
 FixedKinematics::Particle FixedKinematics::particle(Index point) const {
-  const auto p = static_cast<std::size_t>(point);
+  const auto p = as_size(point);
   // Points of one pairing lie one after the other, each with the shape functions of all its nodes.
-  const Pairing& pairing = points_.pairings[static_cast<std::size_t>(pairing_[p])];
-  const auto n_slave = static_cast<std::size_t>(pairing.n_slave);
-  const std::size_t shape = pairing.first_shape + static_cast<std::size_t>(point - pairing.first_point) *
-                                                      static_cast<std::size_t>(pairing.n_nodes());
+  const Pairing& pairing = points_.pairings[as_size(pairing_[p])];
+  const auto n_slave = as_size(pairing.n_slave);
+  const std::size_t shape =
+      pairing.first_shape + as_size(point - pairing.first_point) * as_size(pairing.n_nodes());
   // Means around nodes show their values at the node alone, with the share one; other points at
   // their face.
   const bool of_a_node = pairing.n_shown == 1;
@@ -61,9 +62,9 @@ void FixedKinematics::place(std::span<const double> u, Points) {
       Point d{};
       for (int a = 0; a < pairing.n_nodes(); ++a) {
         const double* ua = u.data() + static_cast<std::ptrdiff_t>(nodes[a]) * components_;
-        for (int i = 0; i < components_; ++i) d[static_cast<std::size_t>(i)] += b[a] * ua[i];
+        for (int i = 0; i < components_; ++i) d[as_size(i)] += b[a] * ua[i];
       }
-      relative_[static_cast<std::size_t>(p)] = d;
+      relative_[as_size(p)] = d;
       b += pairing.n_nodes();
     }
   }
@@ -73,17 +74,16 @@ PointMotion FixedKinematics::motion(Index point, const ContactPointState& old, A
   // In small sliding partner, weight and normal of a point are those of the undeformed bodies; only its
   // relative displacement d is new. Penetration is its normal part besides the initial one, the anchor its
   // tangential part.
-  const auto p = static_cast<std::size_t>(point);
-  const Pairing& pairing = points_.pairings[static_cast<std::size_t>(pairing_[p])];
-  const auto n_nodes = static_cast<std::size_t>(pairing.n_nodes());
+  const auto p = as_size(point);
+  const Pairing& pairing = points_.pairings[as_size(pairing_[p])];
+  const auto n_nodes = as_size(pairing.n_nodes());
   const Point &n = points_.normal[p], &d = relative_[p];
   const double along = dot(d, n);
   PointMotion m;
   m.partnered = true;
   m.nodes = {points_.nodes.data() + pairing.first_node, n_nodes};
   m.n_slave = pairing.n_slave;
-  m.share = {points_.shape.data() + pairing.first_shape +
-                 static_cast<std::size_t>(point - pairing.first_point) * n_nodes,
+  m.share = {points_.shape.data() + pairing.first_shape + as_size(point - pairing.first_point) * n_nodes,
              n_nodes};
   m.weight = points_.weight[p];
   m.penetration = points_.initial_penetration[p] + along;
@@ -113,7 +113,7 @@ PointMotion FixedKinematics::motion(Index point, const ContactPointState& old, A
 
 void FixedKinematics::add_to_graph(CliqueSink& sink) {
   for (const Pairing& p : points_.pairings)
-    sink.add(std::span(points_.nodes).subspan(p.first_node, static_cast<std::size_t>(p.n_nodes())));
+    sink.add(std::span(points_.nodes).subspan(p.first_node, as_size(p.n_nodes())));
 }
 
 }  // namespace solidus::contact

@@ -9,6 +9,7 @@
 
 #include "contact/points/contact_kinematics.hpp"
 #include "contact/points/integration.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -21,7 +22,7 @@ class FixedKinematics final : public ContactKinematics {
 
   Index n_points() const override { return points_.n_points(); }
   Particle particle(Index point) const override;
-  FacetGap facets(Index point) const override { return points_.facets[static_cast<std::size_t>(point)]; }
+  FacetGap facets(Index point) const override { return points_.facets[as_size(point)]; }
   double coverage() const override { return points_.paired_measure / points_.slave_measure; }
   bool partners_change() const override { return false; }
   using ContactKinematics::place;

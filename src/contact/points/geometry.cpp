@@ -14,6 +14,7 @@
 #include "contact/points/segment_kinematics.hpp"
 #include "contact/points/sliding_kinematics.hpp"
 #include "contact/surfaces/master_mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
@@ -23,10 +24,6 @@ namespace {
 constexpr double k_rounding = 1e-6;  ///< of coordinates, of the mean size of the slave's faces
 constexpr double k_mostly = 0.5;     ///< of a point is a fit (FacetGap::fits)
 constexpr double k_scatter = 0.25;   ///< of the heights of facets, which follow from those around them
-
-std::size_t index_of(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactParameters& spec,
                           double reach, const ContactSurface& slave, const ContactSurface& master) {
@@ -195,7 +192,7 @@ void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactParameters
 }
 
 std::vector<double> ContactGeometry::no_displacement() const {
-  return std::vector<double>(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
+  return std::vector<double>(mesh_.x.size() * as_size(components_), 0.0);
 }
 
 std::vector<SurfaceCurvature> slave_curvatures(const ContactGeometry& geometry, AnalysisKind kind,
@@ -203,10 +200,9 @@ std::vector<SurfaceCurvature> slave_curvatures(const ContactGeometry& geometry, 
   const std::vector<SurfaceCurvature> of_face =
       surface_curvatures(slave, kind, MeshMasterOptions{}.feature_angle);
   if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
-  std::vector<SurfaceCurvature> of_point(index_of(geometry.n_points()));
+  std::vector<SurfaceCurvature> of_point(as_size(geometry.n_points()));
   for (Index p = 0; p < geometry.n_points(); ++p)
-    of_point[index_of(p)] =
-        of_face[static_cast<std::size_t>(geometry.kinematics().particle(p).number / k_points_of_a_face)];
+    of_point[as_size(p)] = of_face[as_size(geometry.kinematics().particle(p).number / k_points_of_a_face)];
   return of_point;
 }
 
@@ -222,9 +218,9 @@ std::vector<SurfaceCurvature> master_curvatures(const mesh::Mesh& mesh, Analysis
   // At a node the mean of the curvatures of its faces.
   for (Index f = 0; f < surfaces.master->n_faces(); ++f)
     for (const Index node : surfaces.master->nodes(f)) {
-      at_node[index_of(node)].first += of_face[index_of(f)].first;
-      at_node[index_of(node)].second += of_face[index_of(f)].second;
-      faces[index_of(node)] += 1;
+      at_node[as_size(node)].first += of_face[as_size(f)].first;
+      at_node[as_size(node)].second += of_face[as_size(f)].second;
+      faces[as_size(node)] += 1;
     }
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (faces[i] > 0) at_node[i] = {at_node[i].first / faces[i], at_node[i].second / faces[i]};

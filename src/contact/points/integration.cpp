@@ -8,6 +8,7 @@
 #include "contact/points/point_list.hpp"
 #include "contact/surfaces/slave_rule.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
@@ -28,7 +29,7 @@ double measure_of(const Face& face, AnalysisKind kind) {
 /// The length of the edges of a face; of a line the number of its ends.
 double perimeter(const Face& face) {
   if (face.dimension() == 1) return 2;
-  const auto n = static_cast<std::size_t>(mesh::vertex_count(face.shape));
+  const auto n = as_size(mesh::vertex_count(face.shape));
   double sum = 0;
   for (std::size_t a = 0; a < n; ++a) sum += distance(face.x[a], face.x[(a + 1) % n]);
   return sum;
@@ -137,7 +138,7 @@ class Builder {
     p.n_master = static_cast<int>(m.size());
     p.first_node = points_.nodes.size();
     p.first_point = points_.n_points();
-    p.n_points = static_cast<Index>(found.size());
+    p.n_points = as_index(found.size());
     p.first_shape = points_.shape.size();
     p.counted = s[0] < mesh_.n_owned_nodes;
     points_.nodes.insert(points_.nodes.end(), s.begin(), s.end());

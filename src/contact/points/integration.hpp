@@ -17,6 +17,7 @@
 #include "contact/surfaces/integration_rule.hpp"
 #include "contact/surfaces/surface.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::contact {
@@ -58,7 +59,7 @@ struct ContactPoints {
   double slave_measure = 0;   ///< whole slave surface, axisymmetric with 2πr [m²]; over all processes
   double paired_measure = 0;  ///< the part that found a partner [m²]; over all processes
 
-  Index n_points() const { return static_cast<Index>(weight.size()); }
+  Index n_points() const { return as_index(weight.size()); }
   std::size_t bytes() const;
 };
 

@@ -8,6 +8,7 @@
 #include "contact/surfaces/face.hpp"
 #include "contact/surfaces/slave_rule.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -16,7 +17,7 @@ namespace {
 constexpr int k_degree = 8;  // of the areas: the shares of quadratic faces have bends
 
 std::size_t place_of(const std::vector<Index>& nodes, Index node) {
-  return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  return as_size(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
 }
 
 /// s_a from N_a.
@@ -50,14 +51,13 @@ MasterWear::MasterWear(const mesh::Mesh& mesh, AnalysisKind kind, const ContactS
 std::vector<WornNode> MasterWear::initial_state() const {
   std::vector<WornNode> state;
   for (const Index node : nodes_)
-    state.push_back(
-        {.number = mesh_.input_node[static_cast<std::size_t>(node)], .counted = node < mesh_.n_owned_nodes});
+    state.push_back({.number = mesh_.input_node[as_size(node)], .counted = node < mesh_.n_owned_nodes});
   return state;
 }
 
 void MasterWear::add(const PointMotion& motion, double depth, double dissipation,
                      std::vector<WornNode>& nodes) const {
-  const auto first = static_cast<std::size_t>(motion.n_slave);
+  const auto first = as_size(motion.n_slave);
   // Nodes take part with positive shares, which are made to sum to one.
   const auto share = [&](std::size_t b) { return std::max(-motion.share[b], 0.0); };
   // The sum is that of the positive parts; it is never zero, since shape functions sum to one.

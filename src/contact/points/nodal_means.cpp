@@ -5,6 +5,7 @@
 #include <map>
 
 #include "contact/surfaces/vector.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -29,7 +30,7 @@ struct Mean {
 /// edges.
 std::array<double, k_max_face_nodes> vertex_functions(std::span<const double> shape, int n_vertices) {
   std::array<double, k_max_face_nodes> values{};
-  const auto n = static_cast<std::size_t>(n_vertices);
+  const auto n = as_size(n_vertices);
   for (std::size_t v = 0; v < n; ++v) values[v] = shape[v];
   for (std::size_t middle = n; middle < shape.size(); ++middle)
     for (const std::size_t v : {middle - n, (middle - n + 1) % n}) values[v] += 0.5 * shape[middle];
@@ -54,7 +55,7 @@ void add_point(const mesh::Mesh& mesh, Index node, const Mean& mean, ContactPoin
     points.nodes.push_back(of);
     points.shape.push_back(share / mean.weight);
   };
-  add(node, mean.share[0].at(mesh.input_node[static_cast<std::size_t>(node)]).value);
+  add(node, mean.share[0].at(mesh.input_node[as_size(node)]).value);
   for (const auto& [number, share] : mean.share[0])
     if (share.node != node) add(share.node, share.value);
   for (const auto& [number, share] : mean.share[1]) add(share.node, share.value);
@@ -75,17 +76,15 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
   std::vector<Index> order;     // of their appearance, the same on all processes
   for (const Pairing& pairing : pieces.pairings) {
     const std::span<const Index> nodes = std::span(pieces.nodes).subspan(pairing.first_node);
-    const auto n_slave = static_cast<std::size_t>(pairing.n_slave),
-               n_nodes = static_cast<std::size_t>(pairing.n_nodes());
+    const auto n_slave = as_size(pairing.n_slave), n_nodes = as_size(pairing.n_nodes());
     const int n_vertices = mesh::vertex_count(slave.shape(pairing.slave_face));
     for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-      const auto i = static_cast<std::size_t>(p);
+      const auto i = as_size(p);
       const std::span<const double> shape =
           std::span(pieces.shape)
-              .subspan(pairing.first_shape + static_cast<std::size_t>(p - pairing.first_point) * n_nodes,
-                       n_nodes);
+              .subspan(pairing.first_shape + as_size(p - pairing.first_point) * n_nodes, n_nodes);
       const auto functions = vertex_functions(shape.first(n_slave), n_vertices);
-      for (std::size_t v = 0; v < static_cast<std::size_t>(n_vertices); ++v) {
+      for (std::size_t v = 0; v < as_size(n_vertices); ++v) {
         const double w = pieces.weight[i] * functions[v];
         if (!(w > 0)) continue;
         const auto [found, fresh] = means.try_emplace(nodes[v]);
@@ -106,8 +105,7 @@ ContactPoints means_around_nodes(const mesh::Mesh& mesh, const ContactSurface& s
         mean.position = add_scaled(mean.position, w, pieces.position[i]);
         mean.linear = mean.linear && mesh::order(slave.shape(pairing.slave_face)) == 1;
         for (std::size_t b = 0; b < n_nodes; ++b) {
-          Mean::Share& share =
-              mean.share[b < n_slave ? 0 : 1][mesh.input_node[static_cast<std::size_t>(nodes[b])]];
+          Mean::Share& share = mean.share[b < n_slave ? 0 : 1][mesh.input_node[as_size(nodes[b])]];
           share.node = nodes[b];
           share.value += w * shape[b];
         }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/points/contact_kinematics.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -20,7 +21,7 @@ struct PartnerList {
   std::vector<Index> nodes;        ///< local numbers
   std::vector<double> share;       ///< B_b
 
-  Index n_points() const { return static_cast<Index>(weight.size()); }
+  Index n_points() const { return as_index(weight.size()); }
   std::span<const Index> nodes_of(Index point) const { return of(nodes, point); }
   std::span<const double> share_of(Index point) const { return of(share, point); }
   void clear();
@@ -30,7 +31,7 @@ struct PartnerList {
  private:
   template <class T>
   std::span<const T> of(const std::vector<T>& values, Index point) const {
-    const auto p = static_cast<std::size_t>(point);
+    const auto p = as_size(point);
     return std::span(values).subspan(first[p], first[p + 1] - first[p]);
   }
 };

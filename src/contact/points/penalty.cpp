@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
@@ -17,7 +18,7 @@ namespace {
 // Sorted input numbers of the vertices name a face whatever its orientation.
 std::vector<GlobalIndex> face_key(const mesh::Mesh& mesh, std::span<const Index> vertices) {
   std::vector<GlobalIndex> key;
-  for (Index n : vertices) key.push_back(mesh.input_node[static_cast<std::size_t>(n)]);
+  for (Index n : vertices) key.push_back(mesh.input_node[as_size(n)]);
   std::sort(key.begin(), key.end());
   return key;
 }
@@ -29,7 +30,7 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
   // Which face of the surface each set of corners is.
   std::map<std::vector<GlobalIndex>, Index> face_of;
   for (Index f = 0; f < surface.n_faces(); ++f) {
-    const auto vertices = static_cast<std::size_t>(mesh::vertex_count(surface.shape(f)));
+    const auto vertices = as_size(mesh::vertex_count(surface.shape(f)));
     face_of[face_key(mesh, surface.nodes(f).first(vertices))] = f;
   }
   // A face belongs to the process that owns its first node: it holds the element behind.
@@ -41,7 +42,7 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
       const Index* nodes = block.element(e);
       for (int k = 0; k < mesh::face_count(block.shape); ++k) {
         const auto local = mesh::face_nodes(block.shape, k);
-        const auto n = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
+        const auto n = as_size(mesh::vertex_count(mesh::face_shape(block.shape)));
         vertices.clear();
         for (std::size_t i = 0; i < n; ++i) vertices.push_back(nodes[local[i]]);
         // The element behind a face: its modulus over its height along the normal is the stiffness per area,
@@ -52,10 +53,10 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
         const Point centre = reference_centre(face.shape), normal = face.normal(centre), x = face.at(centre);
         double height = 0;
         for (int a = 0; a < mesh::node_count(block.shape); ++a)
-          height = std::max(height, dot(subtract(x, mesh.x[static_cast<std::size_t>(nodes[a])]), normal));
+          height = std::max(height, dot(subtract(x, mesh.x[as_size(nodes[a])]), normal));
         if (height <= 0) continue;
         const double measure = face.measure();
-        sum += measure * modulus[static_cast<std::size_t>(block.body)] / height;
+        sum += measure * modulus[as_size(block.body)] / height;
         area += measure;
       }
     }

@@ -7,14 +7,11 @@
 
 #include "contact/points/point_list.hpp"
 #include "contact/surfaces/face_cells.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 // A cell of which less than this share is covered has no partner: rounding at the master's end.
 constexpr double k_least_covered = 1e-9;
@@ -25,7 +22,7 @@ SegmentKinematics::SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
                                      const ContactSurface& master, std::unique_ptr<Master> met,
                                      double search_distance)
     : kind_(kind),
-      components_(static_cast<std::size_t>(displacement_components(kind))),
+      components_(as_size(displacement_components(kind))),
       slave_(slave),
       master_(master),
       reach_(search_distance),
@@ -76,7 +73,7 @@ void SegmentKinematics::add_cells() {
         mesh::basis_values(face.shape, q.xi, shape);
         whole += q.weight;
         position = contact::add_scaled(position, q.weight, face.at(q.xi));
-        for (std::size_t a = 0; a < at(face.n_nodes); ++a) mean[a] += q.weight * shape[a];
+        for (std::size_t a = 0; a < as_size(face.n_nodes); ++a) mean[a] += q.weight * shape[a];
       }
       // Means instead of integrals over the cell.
       position = scale(1 / whole, position);
@@ -88,7 +85,7 @@ void SegmentKinematics::add_cells() {
 }
 
 SegmentKinematics::Particle SegmentKinematics::particle(Index point) const {
-  const std::size_t c = at(point);
+  const std::size_t c = as_size(point);
   const auto nodes = slave_.nodes(cells_.face[c]);
   const bool counted = nodes[0] < n_owned_;
   const bool met = cells_.covered[c] > 0;
@@ -114,9 +111,9 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
   std::size_t next = 0;
   // The loop fills the range of each cell of the face in turn, empty ones included, so that cell c
   // has the places [cells_.first_place[c], cells_.first_place[c + 1]).
-  for (const Index last = cells_.first_cell[at(slave_face) + 1];
-       static_cast<Index>(cells_.first_place.size()) <= last;) {
-    const std::size_t number = at(cells_.number[cells_.first_place.size() - 1]);
+  for (const Index last = cells_.first_cell[as_size(slave_face) + 1];
+       as_index(cells_.first_place.size()) <= last;) {
+    const std::size_t number = as_size(cells_.number[cells_.first_place.size() - 1]);
     for (; next < pieces.size() && cell(pieces[next]) == number; ++next) {
       const PairedPoint& p = pieces[next];
       const double area = p.measure * reference.jacobian(p.slave_xi) / now.jacobian(p.slave_xi);
@@ -125,7 +122,7 @@ void SegmentKinematics::cut(Index slave_face, const Face& now, const FaceSearch&
                         .weight = area * circumference(kind_, reference.at(p.slave_xi)),
                         .hint = p.master_face});
     }
-    cells_.first_place.push_back(static_cast<Index>(found_.size()));
+    cells_.first_place.push_back(as_index(found_.size()));
   }
 }
 
@@ -148,19 +145,20 @@ void SegmentKinematics::place(std::span<const double> displacement, Points) {
   for (std::size_t c = 0; c < cells_.face.size(); ++c) {
     cells_.covered[c] = 0;
     for (Index s = cells_.first_place[c]; s < cells_.first_place[c + 1]; ++s)
-      if (places_.points().table().partner[at(s)].face >= 0) cells_.covered[c] += places_.particle(s).weight;
+      if (places_.points().table().partner[as_size(s)].face >= 0)
+        cells_.covered[c] += places_.particle(s).weight;
     if (cells_.covered[c] < k_least_covered * cells_.whole[c]) cells_.covered[c] = 0;
   }
 }
 
 FacetGap SegmentKinematics::facets(Index point) const {
   FacetGap mean;
-  if (cells_.covered[at(point)] == 0) return mean;
+  if (cells_.covered[as_size(point)] == 0) return mean;
   // The mean over the pieces of the cell, by area.
-  for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s) {
-    if (places_.points().table().partner[at(s)].face < 0) continue;
+  for (Index s = cells_.first_place[as_size(point)]; s < cells_.first_place[as_size(point) + 1]; ++s) {
+    if (places_.points().table().partner[as_size(s)].face < 0) continue;
     const FacetGap here = places_.facets(s);
-    const double alpha = places_.particle(s).weight / cells_.covered[at(point)];
+    const double alpha = places_.particle(s).weight / cells_.covered[as_size(point)];
     mean.height += alpha * here.height;
     mean.bound += alpha * here.bound;
     mean.fits += alpha * here.fits;
@@ -169,7 +167,7 @@ FacetGap SegmentKinematics::facets(Index point) const {
 }
 
 bool SegmentKinematics::concerns(Index point) const {
-  for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s)
+  for (Index s = cells_.first_place[as_size(point)]; s < cells_.first_place[as_size(point) + 1]; ++s)
     if (places_.concerns(s)) return true;
   return false;
 }
@@ -178,7 +176,7 @@ void SegmentKinematics::number_nodes(const PointMotion& place) const {
   last_.where.clear();
   // Nodes of all pieces of a cell in one list, and where each piece has its own in it.
   for (const Index node : place.nodes) {
-    last_.where.push_back(at(static_cast<Index>(std::ranges::find(last_.nodes, node) - last_.nodes.begin())));
+    last_.where.push_back(as_size(as_index(std::ranges::find(last_.nodes, node) - last_.nodes.begin())));
     if (last_.where.back() < last_.nodes.size()) continue;
     last_.nodes.push_back(node);
     last_.share.push_back(0);
@@ -192,8 +190,8 @@ void SegmentKinematics::number_nodes(const PointMotion& place) const {
 
 template <class Visit>
 void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) const {
-  for (Index s = cells_.first_place[at(point)]; s < cells_.first_place[at(point) + 1]; ++s) {
-    if (places_.points().table().partner[at(s)].face < 0) continue;
+  for (Index s = cells_.first_place[as_size(point)]; s < cells_.first_place[as_size(point) + 1]; ++s) {
+    if (places_.points().table().partner[as_size(s)].face < 0) continue;
     const PointMotion place = places_.motion(s, {}, asked);
     number_nodes(place);
     visit(s, place);
@@ -203,7 +201,7 @@ void SegmentKinematics::for_each_place(Index point, Asked asked, Visit visit) co
 PointMotion SegmentKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
   // A cell has the means over its places, each of which faces one master face. Without any covered part it
   // has no partner.
-  const std::size_t c = at(point);
+  const std::size_t c = as_size(point);
   PointMotion m;
   m.weight = particle(point).weight;
   if (cells_.covered[c] == 0) return m;
@@ -317,7 +315,7 @@ void SegmentKinematics::add_share_rates(Index point, std::span<Point> rates) con
     for (std::size_t a = 0; a < m; ++a)
       for (std::size_t b = 0; b < m; ++b) {
         Point& rate = rates[last_.where[a] * n + last_.where[b]];
-        rate = contact::add_scaled(rate, place.weight / cells_.covered[at(point)], part[a * m + b]);
+        rate = contact::add_scaled(rate, place.weight / cells_.covered[as_size(point)], part[a * m + b]);
       }
   });
 }

@@ -27,6 +27,7 @@
 
 #include "contact/points/sliding_kinematics.hpp"
 #include "contact/surfaces/search.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -38,7 +39,7 @@ class SegmentKinematics final : public ContactKinematics {
   SegmentKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                     const ContactSurface& master, std::unique_ptr<Master> met, double search_distance);
 
-  Index n_points() const override { return static_cast<Index>(cells_.face.size()); }
+  Index n_points() const override { return as_index(cells_.face.size()); }
   /// With the weight of the part that was covered when the cell was last placed, of a cell without a partner
   /// the whole.
   Particle particle(Index point) const override;

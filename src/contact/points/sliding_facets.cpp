@@ -4,11 +4,12 @@
 #include <span>
 
 #include "contact/points/sliding_kinematics.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
 FacetGap SlidingKinematics::facets(Index point) const {
-  const auto p = static_cast<std::size_t>(point);
+  const auto p = as_size(point);
   const Partner& partner = points_.table().partner[p];
   // Heights matter where the master has facets; an analytic surface has none.
   if (partner.face < 0) return {};
@@ -17,7 +18,7 @@ FacetGap SlidingKinematics::facets(Index point) const {
   std::size_t n_master = 0;
   if (points_.master().heights() != nullptr) {
     points_.master().frame(partner, false, last_.frame);
-    n_master = static_cast<std::size_t>(last_.frame.n_face_nodes);
+    n_master = as_size(last_.frame.n_face_nodes);
     std::copy_n(last_.frame.share.begin(), n_master, values.begin());
   }
   return facet_gap(heights_, points_.table().face[p], std::span(points_.table().shape[p]).first(n_slave),

@@ -2,11 +2,12 @@
 #include <algorithm>
 
 #include "contact/points/sliding_points.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
 std::span<const Index> SlidingPoints::allowed(Index slave_face) const {
-  const auto f = static_cast<std::size_t>(slave_face);
+  const auto f = as_size(slave_face);
   return std::span(allowed_.faces).subspan(allowed_.first[f], allowed_.first[f + 1] - allowed_.first[f]);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact/points/frame_push.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -27,10 +28,10 @@ const Point& plane_normal_xi(const Partner& partner, const MasterFrame& frame, s
 SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                                      std::unique_ptr<Master> master, const SlidingOptions& options)
     : points_(mesh, kind, slave, std::move(master), options),
-      components_(static_cast<std::size_t>(displacement_components(kind))),
+      components_(as_size(displacement_components(kind))),
       heights_(slave) {
   const auto of_master = points_.master().max_nodes();
-  const std::size_t most = static_cast<std::size_t>(k_max_face_nodes) + of_master;
+  const std::size_t most = as_size(k_max_face_nodes) + of_master;
   last_.frame.nu_rate.resize(of_master);
   last_.nodes.resize(most);
   last_.share.resize(most);
@@ -52,13 +53,12 @@ void SlidingKinematics::list_nodes(std::size_t point) const {
   }
   for (std::size_t a = 0; a < last_.frame.nodes.size(); ++a) {
     last_.nodes[last_.n_slave + a] = last_.frame.nodes[a];
-    last_.share[last_.n_slave + a] =
-        a < static_cast<std::size_t>(last_.frame.n_face_nodes) ? -last_.frame.share[a] : 0.0;
+    last_.share[last_.n_slave + a] = a < as_size(last_.frame.n_face_nodes) ? -last_.frame.share[a] : 0.0;
   }
 }
 
 PointMotion SlidingKinematics::motion(Index point, const ContactPointState& old, Asked asked) const {
-  const auto p = static_cast<std::size_t>(point);
+  const auto p = as_size(point);
   const Partner& partner = points_.table().partner[p];
   PointMotion m;
   m.weight = points_.weight_of(p);
@@ -199,7 +199,7 @@ void SlidingKinematics::find_wedge_rates(const Partner& partner) const {
 
 void SlidingKinematics::add_geometric_tangent(Index point, double pressure, const Point& traction,
                                               std::span<Tensor> k) const {
-  const auto p = static_cast<std::size_t>(point);
+  const auto p = as_size(point);
   const Partner& partner = points_.table().partner[p];
   assert(k.size() == last_.n_nodes * last_.n_nodes);
   const PushRates push =
@@ -212,8 +212,7 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
     // ∂f/∂x_c
     Tensor turn{};
     contact::add_scaled(turn, -pressure, last_.normal_rate[c]);
-    const bool on_face =
-        c >= last_.n_slave && c < last_.n_slave + static_cast<std::size_t>(last_.frame.n_face_nodes);
+    const bool on_face = c >= last_.n_slave && c < last_.n_slave + as_size(last_.frame.n_face_nodes);
     for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
       add_outer(turn, 1, push.by_xi[alpha], last_.xi_rate[c][alpha]);
       if (on_face) contact::add_scaled(turn, last_.frame.slope[c - last_.n_slave][alpha], push.by_tau[alpha]);
@@ -222,8 +221,7 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
     for (std::size_t b = 0; b < last_.n_nodes; ++b) {
       Tensor& block = k[b * last_.n_nodes + c];
       if (last_.share[b] != 0) contact::add_scaled(block, w * last_.share[b], turn);
-      if (b < last_.n_slave || b - last_.n_slave >= static_cast<std::size_t>(last_.frame.n_face_nodes))
-        continue;
+      if (b < last_.n_slave || b - last_.n_slave >= as_size(last_.frame.n_face_nodes)) continue;
       for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
         add_outer(block, -w * last_.frame.slope[b - last_.n_slave][alpha], force, last_.xi_rate[c][alpha]);
     }
@@ -232,7 +230,7 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
 
 void SlidingKinematics::add_share_rates(Index, std::span<Point> rates) const {
   assert(rates.size() == last_.n_nodes * last_.n_nodes);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(last_.frame.n_face_nodes); ++a)
+  for (std::size_t a = 0; a < as_size(last_.frame.n_face_nodes); ++a)
     for (std::size_t b = 0; b < last_.n_nodes; ++b) {
       Point& rate = rates[(last_.n_slave + a) * last_.n_nodes + b];
       for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
@@ -241,7 +239,7 @@ void SlidingKinematics::add_share_rates(Index, std::span<Point> rates) const {
 }
 
 SlidingKinematics::ReferenceRates SlidingKinematics::reference_rates(Index point) const {
-  const Partner& met = points_.table().partner[static_cast<std::size_t>(point)];
+  const Partner& met = points_.table().partner[as_size(point)];
   last_.place_rate.assign(last_.n_nodes, Tensor{});
   last_.turn_rate.assign(last_.n_nodes, Tensor{});
   for (std::size_t c = 0; c < last_.n_nodes; ++c)

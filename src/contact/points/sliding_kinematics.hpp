@@ -16,6 +16,7 @@
 #include "contact/points/contact_kinematics.hpp"
 #include "contact/points/sliding_points.hpp"
 #include "contact/surfaces/facet_heights.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -29,7 +30,7 @@ class SlidingKinematics : public ContactKinematics {
   SlidingPoints& points() { return points_; }
   const SlidingPoints& points() const { return points_; }
 
-  Index n_points() const override { return static_cast<Index>(points_.table().weight.size()); }
+  Index n_points() const override { return as_index(points_.table().weight.size()); }
   Particle particle(Index point) const override { return points_.particle(point); }
   FacetGap facets(Index point) const override;
   double coverage() const override { return points_.coverage(); }
@@ -40,14 +41,14 @@ class SlidingKinematics : public ContactKinematics {
     points_.place(displacement, points);
   }
   bool concerns(Index point) const override {
-    return points_.table().concern[static_cast<std::size_t>(point)] != SlidingPoints::none;
+    return points_.table().concern[as_size(point)] != SlidingPoints::none;
   }
   PointMotion motion(Index point, const ContactPointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
   void add_share_rates(Index point, std::span<Point> rates) const override;
   Point master_way(Index point, double from, double to) const override {
-    return points_.master().way(points_.table().partner[static_cast<std::size_t>(point)], from, to);
+    return points_.master().way(points_.table().partner[as_size(point)], from, to);
   }
   bool graph_outdated() const override { return points_.graph_outdated(); }
   void add_to_graph(CliqueSink& sink) override { points_.add_to_graph(sink); }

@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "contact/surfaces/slave_rule.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
 SlidingPoints::SlidingPoints(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                              std::unique_ptr<Master> master, const SlidingOptions& options)
     : mesh_(mesh),
-      components_(static_cast<std::size_t>(displacement_components(kind))),
+      components_(as_size(displacement_components(kind))),
       slave_(slave),
       master_(std::move(master)),
       options_(options) {
@@ -86,18 +87,18 @@ void SlidingPoints::find_faces_that_concern() {
   const auto own = [&](Index node) { return node < mesh_.n_owned_nodes; };
   all_own_ = std::all_of(slave_.all_nodes().begin(), slave_.all_nodes().end(), own);
   if (all_own_) return;
-  const auto n_faces = static_cast<std::size_t>(master_->n_faces());
+  const auto n_faces = as_size(master_->n_faces());
   std::vector<char> found(n_faces, 0);
   for (Index f = 0; f < master_->n_faces(); ++f) {
     const auto nodes = master_->nodes(f);
-    found[static_cast<std::size_t>(f)] = std::any_of(nodes.begin(), nodes.end(), own) ? 1 : 0;
+    found[as_size(f)] = std::any_of(nodes.begin(), nodes.end(), own) ? 1 : 0;
   }
   const auto widen = [&](int rings) {
     for (int ring = 0; ring < rings; ++ring) {
       const std::vector<char> inner = found;
       for (Index f = 0; f < master_->n_faces(); ++f)
-        if (inner[static_cast<std::size_t>(f)] != 0)
-          for (const Index g : master_->around(f)) found[static_cast<std::size_t>(g)] = 1;
+        if (inner[as_size(f)] != 0)
+          for (const Index g : master_->around(f)) found[as_size(g)] = 1;
     }
   };
   face_concern_.assign(n_faces, none);
@@ -115,7 +116,7 @@ void SlidingPoints::find_faces_that_concern() {
 }
 
 ContactKinematics::Particle SlidingPoints::particle(Index point) const {
-  const auto p = static_cast<std::size_t>(point);
+  const auto p = as_size(point);
   const auto nodes = slave_.nodes(table_.face[p]);
   return {.number = table_.face[p] * k_points_of_a_face + table_.number[p],
           .counted = nodes[0] < mesh_.n_owned_nodes,
@@ -128,7 +129,7 @@ ContactKinematics::Particle SlidingPoints::particle(Index point) const {
 
 Point SlidingPoints::place_of(std::size_t point, const Face& face) const {
   Point x{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(face.n_nodes); ++a)
+  for (std::size_t a = 0; a < as_size(face.n_nodes); ++a)
     x = contact::add_scaled(x, table_.shape[point][a], face.x[a]);
   return x;
 }
@@ -151,9 +152,7 @@ void SlidingPoints::place(std::span<const double> displacement, ContactKinematic
       table_.partner[p] = master_->find(table_.x[p], normal, table_.hint[p]);
     const Index met = table_.partner[p].face;
     if (met >= 0) table_.hint[p] = met;
-    table_.concern[p] = own                                ? reached
-                        : met < 0 || face_concern_.empty() ? none
-                                                           : face_concern_[static_cast<std::size_t>(met)];
+    table_.concern[p] = own ? reached : met < 0 || face_concern_.empty() ? none : face_concern_[as_size(met)];
   }
 }
 

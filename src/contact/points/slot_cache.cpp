@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 std::span<const SlotCache::Slot> SlotCache::slots(Index first_point, std::span<const Index> nodes) {
-  Run& run = runs_[static_cast<std::size_t>(first_point)];
+  Run& run = runs_[as_size(first_point)];
   if (!std::equal(nodes.begin(), nodes.end(), run.nodes.begin(), run.nodes.end())) {
     run.nodes.assign(nodes.begin(), nodes.end());
     run.slots.clear();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linear/block_matrix.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -17,7 +18,7 @@ class SlotCache {
   void bind(const linear::BlockMatrix& matrix, Index n_owned, Index n_points) {
     matrix_ = &matrix;
     n_owned_ = n_owned;
-    runs_.assign(static_cast<std::size_t>(n_points), {});
+    runs_.assign(as_size(n_points), {});
   }
   /// Slots of all pairs of the nodes, [row][column]; rows of other processes have none. Valid until the next
   /// call for the same point.

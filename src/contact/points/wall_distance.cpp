@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -20,7 +22,7 @@ std::vector<Face> current_faces(const ContactSurface& surface, std::span<const d
 
 WallDistance::WallDistance(const ContactSurface& master, std::span<const double> displacement, int components)
     : displacement_(displacement),
-      components_(static_cast<std::size_t>(components)),
+      components_(as_size(components)),
       reference_(reference_faces(master)),
       current_(current_faces(master, displacement, components)) {}
 
@@ -35,8 +37,7 @@ double WallDistance::opened(const ContactKinematics::Particle& particle, double 
   Point x = particle.position;
   for (std::size_t b = 0; b < particle.nodes.size(); ++b)
     for (std::size_t i = 0; i < components_; ++i)
-      x[i] +=
-          particle.share[b] * displacement_[static_cast<std::size_t>(particle.nodes[b]) * components_ + i];
+      x[i] += particle.share[b] * displacement_[as_size(particle.nodes[b]) * components_ + i];
   const double before = in_front(reference_, particle.position, reach), now = in_front(current_, x, reach);
   return std::max(now - before, 0.0);
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -31,16 +32,16 @@ Point Face::at(const Point& xi) const {
   std::array<double, k_max_face_nodes> n;
   mesh::basis_values(shape, xi, n);
   Point p{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes); ++a) p = add_scaled(p, n[a], x[a]);
+  for (std::size_t a = 0; a < as_size(n_nodes); ++a) p = add_scaled(p, n[a], x[a]);
   return p;
 }
 
 std::array<Point, 2> Face::tangents(const Point& xi) const {
   std::array<double, 2 * k_max_face_nodes> g;
   mesh::basis_gradients(shape, xi, g);
-  const auto dim = static_cast<std::size_t>(dimension());
+  const auto dim = as_size(dimension());
   std::array<Point, 2> t{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes); ++a)
+  for (std::size_t a = 0; a < as_size(n_nodes); ++a)
     for (std::size_t i = 0; i < dim; ++i) t[i] = add_scaled(t[i], g[a * dim + i], x[a]);
   if (dim == 1) t[1] = {0, 0, 1};
   return t;
@@ -89,14 +90,14 @@ double Face::size() const {
 double Face::rounding() const {
   constexpr double k_places = 16 * std::numeric_limits<double>::epsilon();
   double largest = 0;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes); ++a)
+  for (std::size_t a = 0; a < as_size(n_nodes); ++a)
     for (const double component : x[a]) largest = std::max(largest, std::abs(component));
   return k_places * largest / distance(x[0], x[1]);
 }
 
 std::array<Point, 2> Face::box() const {
   std::array<Point, 2> b{x[0], x[0]};
-  for (std::size_t a = 1; a < static_cast<std::size_t>(n_nodes); ++a)
+  for (std::size_t a = 1; a < as_size(n_nodes); ++a)
     for (std::size_t i = 0; i < 3; ++i) {
       b[0][i] = std::min(b[0][i], x[a][i]);
       b[1][i] = std::max(b[1][i], x[a][i]);
@@ -115,7 +116,7 @@ std::array<Point, 2> Face::box() const {
 
 bool Face::straight_edges() const {
   if (mesh::order(shape) == 1) return true;
-  const auto v = static_cast<std::size_t>(mesh::vertex_count(shape));
+  const auto v = as_size(mesh::vertex_count(shape));
   const double tolerance = 1e-9 * distance(x[0], x[1]);
   for (std::size_t e = 0; e < (is_line(shape) ? 1 : v); ++e) {
     const Point middle = scale(0.5, add(x[e], x[(e + 1) % v]));

@@ -8,6 +8,7 @@
 
 #include "contact/surfaces/master_mesh.hpp"
 #include "contact/surfaces/surface_curvature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -20,8 +21,8 @@ FacetHeights::FacetHeights(const ContactSurface& surface) {
     const Face face = surface.reference_face(f);
     // Quadratic faces follow the curved surface themselves: facets are those of linear faces.
     if (mesh::order(face.shape) > 1) continue;
-    const ShapeOperator& shape = shapes[static_cast<std::size_t>(f)];
-    const auto n = static_cast<std::size_t>(face.n_nodes);
+    const ShapeOperator& shape = shapes[as_size(f)];
+    const auto n = as_size(face.n_nodes);
     // The true surface over the edge of two nodes bulges by an eighth of its length squared times
     // the curvature; pairs of nodes carry it, so that any place on the face is interpolated by
     // products of shape functions.
@@ -52,15 +53,15 @@ void FacetHeights::measure_turns(const ContactSurface& surface, double feature_a
   for (const auto& [node, faces] : at_node)
     for (const Index f : faces)
       for (const Index g : faces) {
-        const Point &a = normal[static_cast<std::size_t>(f)], &b = normal[static_cast<std::size_t>(g)];
+        const Point &a = normal[as_size(f)], &b = normal[as_size(g)];
         const double angle = std::atan2(norm(cross(a, b)), dot(a, b));
-        double& turn = turn_[static_cast<std::size_t>(f)];
+        double& turn = turn_[as_size(f)];
         if (angle < feature_angle) turn = std::max(turn, angle);
       }
 }
 
 double FacetHeights::at(Index face, std::span<const double> shape) const {
-  const auto f = static_cast<std::size_t>(face);
+  const auto f = as_size(face);
   if (!(largest_[f] > 0)) return 0;
   double height = 0;
   const double* pair = pair_.data() + first_[f];

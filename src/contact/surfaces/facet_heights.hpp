@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "contact/surfaces/surface.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -32,12 +33,12 @@ class FacetHeights {
   /// t at the values N of the face's shape functions [m].
   double at(Index face, std::span<const double> shape) const;
   /// The largest t of the face without sign [m].
-  double largest(Index face) const { return largest_[static_cast<std::size_t>(face)]; }
+  double largest(Index face) const { return largest_[as_size(face)]; }
   /// The angle by which the normal of the surface turns along an edge of the face or of one that shares a
   /// node with it, the largest [rad].
-  double turn(Index face) const { return turn_[static_cast<std::size_t>(face)]; }
+  double turn(Index face) const { return turn_[as_size(face)]; }
   /// Above zero where the face is convex, below where it is concave.
-  double outward(Index face) const { return outward_[static_cast<std::size_t>(face)]; }
+  double outward(Index face) const { return outward_[as_size(face)]; }
 
  private:
   void measure_turns(const ContactSurface& surface, double feature_angle);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -26,7 +28,7 @@ double mean_diagonal(std::span<const Face> faces) {
 // Angle of the face at a vertex; one for the ends of lines.
 double vertex_angle(const Face& face, std::size_t v) {
   if (face.dimension() == 1) return 1;
-  const auto n = static_cast<std::size_t>(mesh::vertex_count(face.shape));
+  const auto n = as_size(mesh::vertex_count(face.shape));
   const Point a = subtract(face.x[(v + 1) % n], face.x[v]);
   const Point b = subtract(face.x[(v + n - 1) % n], face.x[v]);
   return std::atan2(norm(cross(a, b)), dot(a, b));
@@ -94,7 +96,7 @@ bool MeshMaster::reference_turns() const {
 
 void MeshMaster::place(std::span<const double> displacement, double) {
   for (Index f = 0; f < surface_.n_faces(); ++f)
-    faces_[static_cast<std::size_t>(f)] = surface_.current_face(f, displacement, components_);
+    faces_[as_size(f)] = surface_.current_face(f, displacement, components_);
   if (normals_) normals_->place(faces_);
   search_.move(faces_);
 }
@@ -130,7 +132,7 @@ Partner MeshMaster::in_wedge(const Feature& feature, const SurfacePoint& closest
       continue;
     }
     const Index node = topology_.vertex(closest.face, feature.local);
-    const auto v = static_cast<std::size_t>(topology_.local_vertex(f, node));
+    const auto v = as_size(topology_.local_vertex(f, node));
     outward =
         add_scaled(outward, vertex_angle(face(f), v), face(f).normal(reference_vertices(face(f).shape)[v]));
   }
@@ -185,7 +187,7 @@ Partner MeshMaster::along_edge(const Feature& vertex, const Point& x) const {
     for (int e = 0; e < topology_.n_edges(f); ++e) {
       const auto faces = topology_.at_edge(f, e);
       if (faces.size() != 2) continue;
-      const auto i = static_cast<std::size_t>(e);
+      const auto i = as_size(e);
       const auto vertices = reference_vertices(face(f).shape);
       // The edge is continued in space as a line, on which the foot of the point is found.
       const Face line = edge_of(face(f), i);
@@ -293,9 +295,9 @@ void MeshMaster::frame(const Partner& partner, bool rates, MasterFrame& frame) c
   // The frame of a partner holds all that the kinematics of a point asks of the master at ξ: nodes, shape
   // functions and their slopes, place, tangents and normals, now and in the reference configuration.
   const Face& now = face(partner.face);
-  const Face& then = reference_[static_cast<std::size_t>(partner.face)];
-  const auto n = static_cast<std::size_t>(now.n_nodes);
-  const auto dim = static_cast<std::size_t>(now.dimension());
+  const Face& then = reference_[as_size(partner.face)];
+  const auto n = as_size(now.n_nodes);
+  const auto dim = as_size(now.dimension());
   frame.n_face_nodes = now.n_nodes;
   frame.nodes = partner.averaged ? normals_->nodes(partner.face) : surface_.nodes(partner.face);
   mesh::basis_values(now.shape, partner.xi, frame.share);

@@ -16,6 +16,7 @@
 #include "contact/surfaces/master_normals.hpp"
 #include "contact/surfaces/master_topology.hpp"
 #include "contact/surfaces/sliding_search.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -57,7 +58,7 @@ class MeshMaster : public Master {
   int n_builds() const { return search_.n_builds(); }
 
  private:
-  const Face& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
+  const Face& face(Index f) const { return faces_[as_size(f)]; }
   Partner on_face(Index f, const Point& xi, const Point& x) const;
   Partner in_wedge(const Feature& feature, const SurfacePoint& closest, const Point& x) const;
   Partner continued(const SurfacePoint& closest, const Feature& feature, const Point& x,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/surfaces/slave_rule.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -24,7 +25,7 @@ AveragedNormals::AveragedNormals(const ContactSurface& surface, double feature_a
   std::vector<std::vector<std::pair<Index, int>>> at_node(surface.all_nodes().size());
   const auto row_of = [&](Index node) {
     const auto& all = surface.all_nodes();
-    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), node) - all.begin());
+    return as_size(std::lower_bound(all.begin(), all.end(), node) - all.begin());
   };
   first_node_.push_back(0);
   for (Index f = 0; f < n; ++f) {
@@ -53,8 +54,7 @@ AveragedNormals::AveragedNormals(const ContactSurface& surface, double feature_a
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const Point& here = own_[first(f) + a];
       for (const auto& [other, local] : at_node[row_of(nodes[a])]) {
-        if (other != f && !(dot(here, own_[first(other) + static_cast<std::size_t>(local)]) > least_cosine))
-          continue;
+        if (other != f && !(dot(here, own_[first(other) + as_size(local)]) > least_cosine)) continue;
         members_.push_back({other, local, slot_.size()});
         for (Index node : surface.nodes(other)) {
           auto found = std::find(patch.begin(), patch.end(), node);
@@ -70,19 +70,19 @@ AveragedNormals::AveragedNormals(const ContactSurface& surface, double feature_a
 }
 
 std::span<const Index> AveragedNormals::nodes(Index face) const {
-  const auto f = static_cast<std::size_t>(face);
+  const auto f = as_size(face);
   return std::span(patch_).subspan(first_patch_[f], first_patch_[f + 1] - first_patch_[f]);
 }
 
 void AveragedNormals::place(std::span<const Face> faces) {
   // Normals of all faces at their nodes, then at each node the mean of those that belong together.
   for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(faces[f].n_nodes); ++a)
+    for (std::size_t a = 0; a < as_size(faces[f].n_nodes); ++a)
       own_[first_node_[f] + a] = faces[f].normal(node_xi(faces[f].shape, a));
   for (std::size_t i = 0; i < mean_.size(); ++i) {
     Point sum{};
     for (std::size_t k = first_member_[i]; k < first_member_[i + 1]; ++k)
-      sum = add(sum, own_[first(members_[k].face) + static_cast<std::size_t>(members_[k].node)]);
+      sum = add(sum, own_[first(members_[k].face) + as_size(members_[k].node)]);
     length_[i] = norm(sum);
     mean_[i] = scale(1 / length_[i], sum);
   }
@@ -92,7 +92,7 @@ Point AveragedNormals::mean_of(Index face, mesh::Shape shape, const Point& xi) c
   std::array<double, k_max_face_nodes> values;
   mesh::basis_values(shape, xi, values);
   Point sum{};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(mesh::node_count(shape)); ++a)
+  for (std::size_t a = 0; a < as_size(mesh::node_count(shape)); ++a)
     sum = add_scaled(sum, values[a], mean_[first(face) + a]);
   return sum;
 }
@@ -105,12 +105,12 @@ AveragedNormals::Director AveragedNormals::at(Index face, mesh::Shape shape, con
   d.nu = scale(1 / length, sum);
   std::array<double, 2 * k_max_face_nodes> g;
   mesh::basis_gradients(shape, xi, g);
-  const auto dim = static_cast<std::size_t>(mesh::dimension(shape));
+  const auto dim = as_size(mesh::dimension(shape));
   // The derivative of the interpolated normal, across itself.
   for (std::size_t alpha = 0; alpha < dim; ++alpha) {
     // Only the part across the normal changes its direction; the other changes its length.
     Point slope{};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh::node_count(shape)); ++a)
+    for (std::size_t a = 0; a < as_size(mesh::node_count(shape)); ++a)
       slope = add_scaled(slope, g[a * dim + alpha], mean_[first(face) + a]);
     d.nu_xi[alpha] = scale(1 / length, tangential(d.nu, slope));
   }
@@ -121,7 +121,7 @@ void AveragedNormals::rates(Index face, std::span<const Face> faces, const Point
                             std::span<Tensor> nu_rate) const {
   // The chain goes from nodes of neighbouring faces to their own normals, from these to the mean at
   // a node, from there to the interpolated normal and its direction.
-  const Face& here = faces[static_cast<std::size_t>(face)];
+  const Face& here = faces[as_size(face)];
   const Point sum = mean_of(face, here.shape, xi);
   const double length = norm(sum);
   const Point nu = scale(1 / length, sum);
@@ -129,24 +129,24 @@ void AveragedNormals::rates(Index face, std::span<const Face> faces, const Point
   mesh::basis_values(here.shape, xi, values);
   std::fill(nu_rate.begin(), nu_rate.end(), Tensor{});
   // Each node's normal is the mean of the normals of its faces, so that every node of these faces moves it.
-  for (std::size_t a = 0; a < static_cast<std::size_t>(here.n_nodes); ++a) {
+  for (std::size_t a = 0; a < as_size(here.n_nodes); ++a) {
     const std::size_t i = first(face) + a;
     for (std::size_t k = first_member_[i]; k < first_member_[i + 1]; ++k) {
       const Member& member = members_[k];
-      const Face& other = faces[static_cast<std::size_t>(member.face)];
-      const Point& n = own_[first(member.face) + static_cast<std::size_t>(member.node)];
-      const Point at = node_xi(other.shape, static_cast<std::size_t>(member.node));
+      const Face& other = faces[as_size(member.face)];
+      const Point& n = own_[first(member.face) + as_size(member.node)];
+      const Point at = node_xi(other.shape, as_size(member.node));
       std::array<double, 2 * k_max_face_nodes> g;
       mesh::basis_gradients(other.shape, at, g);
-      const auto dim = static_cast<std::size_t>(other.dimension());
+      const auto dim = as_size(other.dimension());
       const auto dual = dual_basis(other.tangents(at));
       // δn = −τ^β (n·δτ_β), seen through both normalisations.
       std::array<Point, 2> through{};
       for (std::size_t beta = 0; beta < dim; ++beta)
         through[beta] =
             scale(-values[a] / (length_[i] * length), tangential(nu, tangential(mean_[i], dual[beta])));
-      for (std::size_t c = 0; c < static_cast<std::size_t>(other.n_nodes); ++c) {
-        Tensor& rate = nu_rate[static_cast<std::size_t>(slot_[member.first_slot + c])];
+      for (std::size_t c = 0; c < as_size(other.n_nodes); ++c) {
+        Tensor& rate = nu_rate[as_size(slot_[member.first_slot + c])];
         for (std::size_t beta = 0; beta < dim; ++beta) add_outer(rate, g[c * dim + beta], through[beta], n);
       }
     }

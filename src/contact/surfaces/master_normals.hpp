@@ -11,6 +11,7 @@
 
 #include "contact/surfaces/master.hpp"
 #include "contact/surfaces/surface.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -35,7 +36,7 @@ class AveragedNormals {
     int node = 0;                ///< local
     std::size_t first_slot = 0;  ///< in slot_: where the member's nodes are in nodes(face)
   };
-  std::size_t first(Index face) const { return first_node_[static_cast<std::size_t>(face)]; }
+  std::size_t first(Index face) const { return first_node_[as_size(face)]; }
   Point mean_of(Index face, mesh::Shape shape, const Point& xi) const;  ///< ν̂
 
   std::vector<std::size_t> first_node_;    ///< [face], of [face][node] arrays

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -28,7 +30,7 @@ void append_sorted(std::vector<Index>& data, std::vector<Index>& row) {
 
 Point edge_direction(mesh::Shape shape, int e) {
   const auto v = reference_vertices(shape);
-  const auto i = static_cast<std::size_t>(e);
+  const auto i = as_size(e);
   return subtract(v[(i + 1) % v.size()], v[i]);
 }
 
@@ -38,7 +40,7 @@ int MasterTopology::n_edges(Index face) const {
 }
 
 Index MasterTopology::vertex(Index face, int local) const {
-  return surface_.nodes(face)[static_cast<std::size_t>(local)];
+  return surface_.nodes(face)[as_size(local)];
 }
 
 int MasterTopology::local_vertex(Index face, Index node) const {
@@ -52,15 +54,15 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
   const Index n = surface.n_faces();
   const std::vector<Index>& nodes = surface.all_nodes();
   const auto row_of = [&](Index node) {
-    return static_cast<Index>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    return as_index(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
   };
   std::vector<std::vector<Index>> at_node(nodes.size());
-  vertex_row_.assign(static_cast<std::size_t>(n) * 4, -1);
+  vertex_row_.assign(as_size(n) * 4, -1);
   for (Index f = 0; f < n; ++f)
     for (int v = 0; v < mesh::vertex_count(surface.shape(f)); ++v) {
       const Index row = row_of(vertex(f, v));
       vertex_row_[slot(f, v)] = row;
-      at_node[static_cast<std::size_t>(row)].push_back(f);
+      at_node[as_size(row)].push_back(f);
     }
   first_at_vertex_.push_back(0);
   for (const auto& faces : at_node) {
@@ -81,7 +83,7 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
       ring.insert(ring.end(), faces.begin(), faces.end());
       // A vertex at the end of a line, or an edge with one face alone, lies at the rim of the surface.
       if (mesh::dimension(surface.shape(f)) == 1 && faces.size() == 1)
-        free_vertex_[static_cast<std::size_t>(vertex_row_[slot(f, v)])] = 1;
+        free_vertex_[as_size(vertex_row_[slot(f, v)])] = 1;
     }
     append_sorted(around_, ring);
     first_around_.push_back(around_.size());
@@ -93,8 +95,8 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
           if (local_vertex(other, end) >= 0) both.push_back(other);
         // Both vertices of a rim edge are free.
         if (both.size() == 1) {
-          free_vertex_[static_cast<std::size_t>(vertex_row_[slot(f, e)])] = 1;
-          free_vertex_[static_cast<std::size_t>(vertex_row_[slot(f, (e + 1) % vertices)])] = 1;
+          free_vertex_[as_size(vertex_row_[slot(f, e)])] = 1;
+          free_vertex_[as_size(vertex_row_[slot(f, (e + 1) % vertices)])] = 1;
         }
       }
       append_sorted(at_edge_, both);
@@ -104,7 +106,7 @@ MasterTopology::MasterTopology(const ContactSurface& surface) : surface_(surface
 }
 
 std::span<const Index> MasterTopology::at_edge(Index face, int e) const {
-  return row(at_edge_, first_at_edge_, static_cast<Index>(slot(face, e)));
+  return row(at_edge_, first_at_edge_, as_index(slot(face, e)));
 }
 
 Feature MasterTopology::feature(Index face, const Point& xi) const {
@@ -116,11 +118,11 @@ Feature MasterTopology::feature(Index face, const Point& xi) const {
       const int local = static_cast<int>(a);
       const Index r = vertex_row_[slot(face, local)];
       return {Feature::Kind::vertex, local, row(at_vertex_, first_at_vertex_, r),
-              free_vertex_[static_cast<std::size_t>(r)] != 0};
+              free_vertex_[as_size(r)] != 0};
     }
   // Not at a vertex: on the one edge that ξ lies on, or inside.
   for (int e = 0; e < n_edges(face); ++e)
-    if (off_edge(shape, xi, static_cast<std::size_t>(e)) <= k_on_rim) {
+    if (off_edge(shape, xi, as_size(e)) <= k_on_rim) {
       const auto faces = at_edge(face, e);
       return {Feature::Kind::edge, e, faces, faces.size() == 1};
     }

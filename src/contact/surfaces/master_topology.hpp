@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/surfaces/surface.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -35,12 +36,10 @@ class MasterTopology {
  private:
   static std::span<const Index> row(const std::vector<Index>& data, const std::vector<std::size_t>& first,
                                     Index i) {
-    const auto k = static_cast<std::size_t>(i);
+    const auto k = as_size(i);
     return std::span(data).subspan(first[k], first[k + 1] - first[k]);
   }
-  std::size_t slot(Index face, int local) const {
-    return static_cast<std::size_t>(face) * 4 + static_cast<std::size_t>(local);
-  }
+  std::size_t slot(Index face, int local) const { return as_size(face) * 4 + as_size(local); }
   const ContactSurface& surface_;
   std::vector<Index> around_, at_vertex_, at_edge_;
   std::vector<std::size_t> first_around_, first_at_vertex_, first_at_edge_;

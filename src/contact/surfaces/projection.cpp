@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -114,7 +116,7 @@ void try_line(const Face& line, const Point& p, Best& best) {
 }  // namespace
 
 Face edge_of(const Face& face, std::size_t e) {
-  const auto v = static_cast<std::size_t>(mesh::vertex_count(face.shape));
+  const auto v = as_size(mesh::vertex_count(face.shape));
   Face edge;
   edge.shape = mesh::order(face.shape) == 1 ? mesh::Shape::line2 : mesh::Shape::line3;
   edge.n_nodes = mesh::node_count(edge.shape);

@@ -9,6 +9,8 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -41,7 +43,7 @@ FaceSearch::FaceSearch(std::vector<Face> faces) : faces_(std::move(faces)) {
   entries.reserve(faces_.size());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const auto [low, high] = faces_[f].box();
-    entries.emplace_back(Box(tree_point(low), tree_point(high)), static_cast<Index>(f));
+    entries.emplace_back(Box(tree_point(low), tree_point(high)), as_index(f));
   }
   tree_ = std::make_unique<Tree>(Tree{decltype(Tree::boxes)(entries)});
 }
@@ -110,7 +112,7 @@ SurfacePoint FaceSearch::along(const Point& p, const Point& n, double max_distan
 
 std::vector<Face> reference_faces(const ContactSurface& surface) {
   std::vector<Face> faces;
-  faces.reserve(static_cast<std::size_t>(surface.n_faces()));
+  faces.reserve(as_size(surface.n_faces()));
   for (Index f = 0; f < surface.n_faces(); ++f) faces.push_back(surface.reference_face(f));
   return faces;
 }

@@ -7,6 +7,7 @@
 
 #include "contact/surfaces/projection.hpp"
 #include "contact/surfaces/surface.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -26,7 +27,7 @@ class FaceSearch {
   FaceSearch(const FaceSearch&) = delete;
   FaceSearch& operator=(const FaceSearch&) = delete;
 
-  const Face& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
+  const Face& face(Index f) const { return faces_[as_size(f)]; }
   /// Faces whose bounding boxes meet the box, sorted.
   std::vector<Index> candidates(const Point& low, const Point& high) const;
   /// The closest point of the surface within `max_distance` (3.4). With a `facing` normal only faces that

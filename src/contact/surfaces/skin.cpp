@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 Skin skin_at(std::span<const Index> nodes, std::span<const double> share, std::size_t n_slave,
@@ -13,7 +15,7 @@ Skin skin_at(std::span<const Index> nodes, std::span<const double> share, std::s
   // Coherency of both sides at the point, and that which it would have as a solid.
   for (std::size_t b = 0; b < nodes.size(); ++b) {
     const std::size_t of = b < n_slave ? 0 : 1;
-    const auto node = static_cast<std::size_t>(nodes[b]);
+    const auto node = as_size(nodes[b]);
     const double at_node = of_nodes.coherency[node], part = of == 0 ? share[b] : -share[b];
     side[of] += part * at_node;
     solid[of] += part * (of_nodes.of_solid.empty() ? 1.0 : of_nodes.of_solid[node]);

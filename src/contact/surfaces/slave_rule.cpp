@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -15,7 +16,7 @@ namespace {
 // ∫ N_a dA of a face with 2πr, or, where one of them is negative (quad8), the whole measure shared out in
 // the ratio of ∫ N_a² dA (Hinton, Rock, Zienkiewicz 1976).
 std::vector<double> nodal_measures(const Face& face, AnalysisKind kind) {
-  const auto n = static_cast<std::size_t>(face.n_nodes);
+  const auto n = as_size(face.n_nodes);
   // First and second moments of the shape functions over the face.
   std::vector<double> first(n, 0), second(n, 0), values(n);
   double total = 0;

@@ -10,6 +10,8 @@
 #include <boost/iterator/function_output_iterator.hpp>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -62,10 +64,9 @@ void SlidingSearch::build() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     // A process also keeps a smaller tree of the faces that may concern it.
     const auto [low, high] = faces_[f].box();
-    entries.emplace_back(box_around(low, high, margin_), static_cast<Index>(f));
+    entries.emplace_back(box_around(low, high, margin_), as_index(f));
     if (!marked_.empty() && marked_[f] != 0) watched.push_back(entries.back());
-    for (std::size_t a = 0; a < static_cast<std::size_t>(faces_[f].n_nodes); ++a)
-      built_at_.push_back(faces_[f].x[a]);
+    for (std::size_t a = 0; a < as_size(faces_[f].n_nodes); ++a) built_at_.push_back(faces_[f].x[a]);
   }
   tree_ = std::make_unique<Tree>(Tree{decltype(Tree::boxes)(entries)});
   watched_ = std::make_unique<Tree>(Tree{decltype(Tree::boxes)(watched)});
@@ -75,7 +76,7 @@ void SlidingSearch::build() {
 bool SlidingSearch::moved_beyond_margin() const {
   std::size_t i = 0;
   for (const Face& f : faces_)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(f.n_nodes); ++a, ++i)
+    for (std::size_t a = 0; a < as_size(f.n_nodes); ++a, ++i)
       for (std::size_t k = 0; k < 3; ++k)
         if (!(std::abs(f.x[a][k] - built_at_[i][k]) <= margin_)) return true;
   return false;
@@ -93,7 +94,7 @@ void SlidingSearch::collect(const Point& p, double radius, const Point& facing,
   // Faces as near as the nearest one within rounding, on the side that they face; the box of a face is asked
   // first.
   const auto consider = [&](const Entry& entry) {
-    const Face& face = faces_[static_cast<std::size_t>(entry.second)];
+    const Face& face = faces_[as_size(entry.second)];
     const double slack = k_same * (best + 1e-3 * size_);
     if (distance_to_box(p, face.box()) > best + slack) return;
     const Projection projection = entry.second == known.face ? known.projection : closest_point(face, p);
@@ -117,7 +118,7 @@ bool SlidingSearch::may_meet_watched(const Point& p, double max_distance, const 
   double radius = max_distance;
   if (hint >= 0) {
     // The face that was met last bounds the distance of the closest one, where it still looks this way.
-    const Face& face = faces_[static_cast<std::size_t>(hint)];
+    const Face& face = faces_[as_size(hint)];
     const Projection there = closest_point(face, p);
     if (dot(face.normal(there.xi), facing) < k_facing_cosine) radius = std::min(radius, there.distance);
   }
@@ -132,7 +133,7 @@ SurfacePoint SlidingSearch::closest(const Point& p, double max_distance, const P
   SurfacePoint known{.face = hint, .projection = {}};
   if (hint >= 0) {
     // No face is needed that is farther than the one that was met last.
-    known.projection = closest_point(faces_[static_cast<std::size_t>(hint)], p);
+    known.projection = closest_point(faces_[as_size(hint)], p);
     radius = known.projection.distance * (1 + 4 * k_same) + 4e-3 * k_same * size_;
   }
   // The radius grows by factors of four until a face is found whose distance lies within it: then

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::contact {
@@ -30,8 +31,7 @@ ContactSurface::ContactSurface(const mesh::Mesh& mesh, const std::string& name) 
   // The key is the list of a face's nodes by their numbers in the file, which no partition changes.
   const auto key = [&](const Entry& e, std::vector<GlobalIndex>& k) {
     k.clear();
-    for (int a = 0; a < mesh::node_count(e.shape); ++a)
-      k.push_back(mesh.input_node[static_cast<std::size_t>(e.nodes[a])]);
+    for (int a = 0; a < mesh::node_count(e.shape); ++a) k.push_back(mesh.input_node[as_size(e.nodes[a])]);
   };
   std::vector<GlobalIndex> left, right;
   std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
@@ -53,7 +53,7 @@ ContactSurface::ContactSurface(const mesh::Mesh& mesh, const std::string& name) 
 }
 
 std::span<const Index> ContactSurface::nodes(Index face) const {
-  const auto f = static_cast<std::size_t>(face);
+  const auto f = as_size(face);
   return std::span(nodes_).subspan(first_node_[f], first_node_[f + 1] - first_node_[f]);
 }
 
@@ -62,17 +62,16 @@ Face ContactSurface::reference_face(Index face) const {
   result.shape = shape(face);
   const auto list = nodes(face);
   result.n_nodes = static_cast<int>(list.size());
-  for (std::size_t a = 0; a < list.size(); ++a) result.x[a] = mesh_.x[static_cast<std::size_t>(list[a])];
+  for (std::size_t a = 0; a < list.size(); ++a) result.x[a] = mesh_.x[as_size(list[a])];
   return result;
 }
 
 Face ContactSurface::current_face(Index face, std::span<const double> displacement, int components) const {
   Face result = reference_face(face);
   const auto list = nodes(face);
-  const auto c = static_cast<std::size_t>(components);
+  const auto c = as_size(components);
   for (std::size_t a = 0; a < list.size(); ++a)
-    for (std::size_t i = 0; i < c; ++i)
-      result.x[a][i] += displacement[static_cast<std::size_t>(list[a]) * c + i];
+    for (std::size_t i = 0; i < c; ++i) result.x[a][i] += displacement[as_size(list[a]) * c + i];
   return result;
 }
 
@@ -88,8 +87,8 @@ std::vector<Point> ContactSurface::averaged_normals(std::span<const double> disp
   std::map<Index, std::vector<std::size_t>> at_node;
   for (Index f = 0; f < n_faces(); ++f) {
     const Face face = current_face(f, displacement, components);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(face.n_nodes); ++a) {
-      const std::size_t i = first_node_[static_cast<std::size_t>(f)] + a;
+    for (std::size_t a = 0; a < as_size(face.n_nodes); ++a) {
+      const std::size_t i = first_node_[as_size(f)] + a;
       own[i] = face.normal(node_xi(face.shape, a));
       at_node[nodes_[i]].push_back(i);
     }

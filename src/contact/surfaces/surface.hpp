@@ -7,6 +7,7 @@
 
 #include "contact/surfaces/face.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
 
@@ -18,8 +19,8 @@ class ContactSurface {
   ContactSurface(const mesh::Mesh& mesh, const std::string& name);
 
   const std::string& name() const { return name_; }
-  Index n_faces() const { return static_cast<Index>(shape_.size()); }
-  mesh::Shape shape(Index face) const { return shape_[static_cast<std::size_t>(face)]; }
+  Index n_faces() const { return as_index(shape_.size()); }
+  mesh::Shape shape(Index face) const { return shape_[as_size(face)]; }
   /// Local node numbers of a face, in the order of its shape.
   std::span<const Index> nodes(Index face) const;
   /// All nodes of the surface, local numbers, sorted.

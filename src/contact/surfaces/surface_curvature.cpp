@@ -7,6 +7,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::contact {
 
 namespace {
@@ -90,7 +92,7 @@ ShapeOperator fitted_to_nodes(const Facet& here, double size, const std::vector<
   Eigen::MatrixXd terms(static_cast<Eigen::Index>(nodes.size()), 6);
   Eigen::VectorXd heights(terms.rows());
   for (Eigen::Index i = 0; i < terms.rows(); ++i) {
-    const Point d = scale(1 / size, subtract(nodes[static_cast<std::size_t>(i)], here.centre));
+    const Point d = scale(1 / size, subtract(nodes[as_size(i)], here.centre));
     const double x = dot(d, shape.along), y = dot(d, shape.across);
     terms.row(i) << 1, x, y, -0.5 * x * x, -x * y, -0.5 * y * y;
     heights[i] = dot(d, here.normal);
@@ -154,7 +156,7 @@ std::vector<ShapeOperator> shape_operators(const ContactSurface& surface, double
   // if it has enough of them; all others fit the change of the normals.
   for (std::size_t f = 0; f < facets.size(); ++f) {
     std::vector<std::size_t> around;
-    for (const Index node : surface.nodes(static_cast<Index>(f)))
+    for (const Index node : surface.nodes(as_index(f)))
       around.insert(around.end(), at_node.at(node).begin(), at_node.at(node).end());
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
@@ -165,13 +167,13 @@ std::vector<ShapeOperator> shape_operators(const ContactSurface& surface, double
       for (const Index node : surface.nodes(face))
         if (std::ranges::find(patch, node) == patch.end()) patch.push_back(node);
     };
-    gather(static_cast<Index>(f));
+    gather(as_index(f));
     for (const std::size_t other : around)
       if (other != f && dot(facets[f].normal, facets[other].normal) > least_cosine) {
         neighbours.push_back(&facets[other]);
-        gather(static_cast<Index>(other));
+        gather(as_index(other));
       }
-    const mesh::Shape shape = surface.shape(static_cast<Index>(f));
+    const mesh::Shape shape = surface.shape(as_index(f));
     const bool triangle = shape == mesh::Shape::tri3 || shape == mesh::Shape::tri6;
     constexpr std::size_t k_coefficients = 6;
     if (!triangle || patch.size() < k_coefficients) {
@@ -180,7 +182,7 @@ std::vector<ShapeOperator> shape_operators(const ContactSurface& surface, double
     }
     std::vector<Point> places;
     for (const Index node : patch) places.push_back(place.at(node));
-    const double size = surface.reference_face(static_cast<Index>(f)).size();
+    const double size = surface.reference_face(as_index(f)).size();
     shapes.push_back(fitted_to_nodes(facets[f], size, places, neighbours));
   }
   return shapes;
@@ -190,7 +192,7 @@ std::vector<SurfaceCurvature> surface_curvatures(const ContactSurface& surface, 
                                                  double feature_angle) {
   std::vector<SurfaceCurvature> curvatures;
   for (const ShapeOperator& shape : shape_operators(surface, feature_angle)) {
-    const Face face = surface.reference_face(static_cast<Index>(curvatures.size()));
+    const Face face = surface.reference_face(as_index(curvatures.size()));
     SurfaceCurvature c = principal(shape);
     if (kind != AnalysisKind::solid) {
       // In a plane all neighbours lie in one direction, and the other principal curvature is that of the

@@ -8,6 +8,7 @@
 
 #include "heat/channels/line_excess.hpp"
 #include "mesh/element_search.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::heat {
@@ -101,10 +102,10 @@ void ChannelLine::find_excess(const mesh::Mesh& mesh, AnalysisKind kind, int bod
   const bool apart = kind != AnalysisKind::solid;
   const std::size_t n_fields = apart ? stations_.size() : 1;
   for (std::size_t field = 0; field < n_fields; ++field) {
-    std::vector<double> taken(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);
+    std::vector<double> taken(as_size(mesh.n_owned_nodes), 0.0);
     for (const Share& share : shares_)
       if (!apart || share.station == field)
-        taken[static_cast<std::size_t>(share.node)] += share.weight * stations_[share.station].length;
+        taken[as_size(share.node)] += share.weight * stations_[share.station].length;
     const auto far = [&](const mesh::Point& x) {
       double distance = HUGE_VAL;
       if (apart)
@@ -116,7 +117,7 @@ void ChannelLine::find_excess(const mesh::Mesh& mesh, AnalysisKind kind, int bod
     };
     const std::vector<double> u = line_excess(mesh, kind, body, closed, taken, far);
     for (Share& share : shares_)
-      if (!apart || share.station == field) share.excess = u[static_cast<std::size_t>(share.node)];
+      if (!apart || share.station == field) share.excess = u[as_size(share.node)];
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "heat/loads/channel_film.hpp"
 #include "heat/loads/load_mean.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
@@ -104,7 +105,7 @@ Channels::Fluid Channels::march(One& one, std::span<const double> temperature,
   std::vector<double> sums(2 * n, 0.0);
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const ChannelLine::Share& share = shares[i];
-    const double t = temperature[static_cast<std::size_t>(share.node)];
+    const double t = temperature[as_size(share.node)];
     const double film = 1 / (next.film[share.station] * k_pi * c.diameter);
     const double resistance =
         std::max(film + share.excess / conductivity.conductivity(t), k_least_resistance * film);
@@ -134,7 +135,7 @@ void Channels::march_all(std::span<const double> temperature,
     One& one = channels_[k];
     if (one.before > 0) one.inlet = channels_[one.before - 1].fluid.outlet;
     if (one.flow > 0 && one.active) {
-      one.fluid = march(one, temperature, potentials[static_cast<std::size_t>(one.body)]);
+      one.fluid = march(one, temperature, potentials[as_size(one.body)]);
       continue;
     }
     // Nothing flows, nothing is exchanged: what stands in the channel is as warm as its wall.
@@ -196,7 +197,7 @@ void Channels::add_residual(std::span<const double> temperature, std::span<doubl
     one.power = 0;
     for (std::size_t i = 0; i < one.conductance.size(); ++i) {
       const ChannelLine::Share& share = one.line->shares()[i];
-      const auto node = static_cast<std::size_t>(share.node);
+      const auto node = as_size(share.node);
       const double heat = one.conductance[i] * (temperature[node] - one.fluid.temperature[share.station]);
       out[node] += heat;
       one.power -= heat;
@@ -216,7 +217,7 @@ void Channels::add_supply(std::span<const double> temperature, std::span<double>
   for (const One& one : channels_)
     for (std::size_t i = 0; i < one.conductance.size(); ++i) {
       const ChannelLine::Share& share = one.line->shares()[i];
-      const auto node = static_cast<std::size_t>(share.node);
+      const auto node = as_size(share.node);
       const double heat = one.conductance[i] * (one.fluid.temperature[share.station] - temperature[node]);
       (heat > 0 ? gain : loss)[node] += std::abs(heat);
     }

@@ -7,6 +7,7 @@
 #include "heat/conduction/conduction_block.hpp"
 #include "linear/block_matrix.hpp"
 #include "mesh/body_faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -18,10 +19,6 @@ namespace {
 constexpr int k_layers = 4;
 constexpr int k_most_iterations = 2000;
 constexpr double k_tolerance = 1e-10;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// What a node is in the patch: far away, prescribed at its rim, or solved for.
 enum class Part : char { outside, rim, inner };
@@ -43,8 +40,8 @@ class UnitConduction {
   template <class Visit>
   void row(Index node, const Visit& visit) const {
     const auto start = matrix_.row_start();
-    for (std::int64_t s = start[at(node)]; s < start[at(node) + 1]; ++s)
-      visit(matrix_.columns()[static_cast<std::size_t>(s)], *matrix_.block(s));
+    for (std::int64_t s = start[as_size(node)]; s < start[as_size(node) + 1]; ++s)
+      visit(matrix_.columns()[as_size(s)], *matrix_.block(s));
   }
 
  private:
@@ -63,7 +60,7 @@ std::vector<char> skin_nodes(const mesh::Mesh& mesh, int body, const parallel::G
   mesh::each_body_face_at_owned(mesh, [&](const mesh::BodyFace& face, std::span<const mesh::BodyFace>) {
     if (face.body != body) return;
     for (const Index node : face.all_nodes())
-      if (node < mesh.n_owned_nodes) on_skin[at(node)] = 1;
+      if (node < mesh.n_owned_nodes) on_skin[as_size(node)] = 1;
   });
   ghosts.update(on_skin, 1);
   std::vector<char> flags(on_skin.size());
@@ -83,7 +80,7 @@ std::vector<Part> parts_of_patch(const mesh::Mesh& mesh, const UnitConduction& c
     std::vector<double> next = reached;
     for (Index i = 0; i < mesh.n_owned_nodes; ++i)
       conduction.row(i, [&](Index column, double) {
-        if (reached[at(column)] != 0) next[at(i)] = 1;
+        if (reached[as_size(column)] != 0) next[as_size(i)] = 1;
       });
     ghosts.update(next, 1);
     if (layer == k_layers) {
@@ -117,7 +114,7 @@ void multiply(const UnitConduction& conduction, std::span<const Part> parts,
   for (std::size_t i = 0; i < y.size(); ++i) {
     y[i] = 0;
     if (parts[i] != Part::inner) continue;
-    conduction.row(static_cast<Index>(i), [&](Index column, double value) { y[i] += value * x[at(column)]; });
+    conduction.row(as_index(i), [&](Index column, double value) { y[i] += value * x[as_size(column)]; });
   }
 }
 
@@ -137,8 +134,8 @@ std::vector<double> line_excess(const mesh::Mesh& mesh, AnalysisKind kind, int b
     if (parts[i] != Part::outside) u[i] = far(mesh.x[i]);
   for (std::size_t i = 0; i < n; ++i)
     if (parts[i] == Part::inner)
-      conduction.row(static_cast<Index>(i), [&](Index column, double value) {
-        if (at(column) == i) diagonal[i] = value;
+      conduction.row(as_index(i), [&](Index column, double value) {
+        if (as_size(column) == i) diagonal[i] = value;
       });
   // Conjugate gradients with the diagonal as preconditioner, on the inner nodes.
   multiply(conduction, parts, ghosts, u, q);

@@ -8,6 +8,7 @@
 
 #include "linear/lane_slots.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -21,7 +22,7 @@ std::array<Lane, n_nodes> gather(const mesh::BlockGeometry& geometry, Index batc
   const Index* nodes = geometry.nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes;
   for (std::size_t a = 0; a < n_nodes; ++a)
     for (std::size_t lane = 0; lane < k_lanes; ++lane)
-      values[a].set(static_cast<int>(lane), nodal[static_cast<std::size_t>(nodes[a * k_lanes + lane])]);
+      values[a].set(static_cast<int>(lane), nodal[as_size(nodes[a * k_lanes + lane])]);
   return values;
 }
 
@@ -32,7 +33,7 @@ void scatter(const mesh::BlockGeometry& geometry, Index batch, const std::array<
   const Index* nodes = geometry.nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes;
   for (std::size_t a = 0; a < n_nodes; ++a)
     for (std::size_t lane = 0; lane < k_lanes; ++lane)
-      nodal[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values[a][static_cast<int>(lane)];
+      nodal[as_size(nodes[a * k_lanes + lane])] += values[a][static_cast<int>(lane)];
 }
 
 /// @param slot  [a][b][lane] of the batch

@@ -11,6 +11,7 @@
 
 #include "heat/conduction/block_shapes.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -22,13 +23,12 @@ bool at_nodes(mesh::Shape shape, bool closed) {
 
 /// Σ_q w_q g_a(q), [batch][node][dim].
 PackVector<Lane> integrated_gradients(const mesh::BlockGeometry& g) {
-  const auto stride = static_cast<std::size_t>(g.n_nodes * g.dim);
-  PackVector<Lane> sum(static_cast<std::size_t>(g.n_batches) * stride, Lane(0.0));
+  const auto stride = as_size(g.n_nodes * g.dim);
+  PackVector<Lane> sum(as_size(g.n_batches) * stride, Lane(0.0));
   for (Index batch = 0; batch < g.n_batches; ++batch)
     for (int q = 0; q < g.n_points; ++q)
       for (std::size_t i = 0; i < stride; ++i)
-        sum[static_cast<std::size_t>(batch) * stride + i] +=
-            g.weight_at(batch, q) * g.gradients_at(batch, q)[i];
+        sum[as_size(batch) * stride + i] += g.weight_at(batch, q) * g.gradients_at(batch, q)[i];
   return sum;
 }
 
@@ -46,7 +46,7 @@ mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::ElementBl
   // distorted.
   const PackVector<Lane> exact = integrated_gradients(gauss);
   PackVector<Lane> shift = integrated_gradients(g);
-  const auto stride = static_cast<std::size_t>(g.n_nodes * g.dim);
+  const auto stride = as_size(g.n_nodes * g.dim);
   double largest_shift = 0;
   for (Index batch = 0; batch < g.n_batches; ++batch) {
     // Both means are taken over the volume of their own rule. Padding lanes have no volume and are
@@ -59,7 +59,7 @@ mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::ElementBl
     const Lane per_gauss = select(empty, Lane(0.0), Lane(1.0) / select(empty, Lane(1.0), gauss_volume));
     Lane largest(0.0), size(0.0);
     for (std::size_t i = 0; i < stride; ++i) {
-      const std::size_t at = static_cast<std::size_t>(batch) * stride + i;
+      const std::size_t at = as_size(batch) * stride + i;
       shift[at] = exact[at] * per_gauss - shift[at] * per_volume;
       largest = max(largest, abs(shift[at]));
       size = max(size, abs(g.gradients_at(batch, 0)[i]));
@@ -106,20 +106,19 @@ class Conduction final : public ConductionBlock {
 
   void add_tangent_once(double factor, linear::BlockMatrix& matrix) const override {
     constexpr Index k_together = 1024;  // batches
-    constexpr std::size_t k_nodes = static_cast<std::size_t>(n_nodes) * k_lanes;
+    constexpr std::size_t k_nodes = as_size(n_nodes) * k_lanes;
     // Slots are found for many batches at once, and no more, as they are used only here.
     for (Index first = 0; first < geometry_.n_batches; first += k_together) {
       const Index n = std::min(k_together, geometry_.n_batches - first);
       const std::span<const Index> nodes =
-          std::span(geometry_.nodes)
-              .subspan(static_cast<std::size_t>(first) * k_nodes, static_cast<std::size_t>(n) * k_nodes);
+          std::span(geometry_.nodes).subspan(as_size(first) * k_nodes, as_size(n) * k_nodes);
       const linear::LaneSlots slots(matrix, nodes, n_nodes, geometry_.n_elements - first * k_lanes);
       for (Index batch = 0; batch < n; ++batch) add_batch(first + batch, factor, {}, slots.of(batch), matrix);
     }
   }
 
   void set_shares(std::span<const double> share) override {
-    shares_.assign(static_cast<std::size_t>(geometry_.n_batches), Lane(1.0));
+    shares_.assign(as_size(geometry_.n_batches), Lane(1.0));
     for (std::size_t e = 0; e < share.size(); ++e)
       shares_[e / k_lanes].set(static_cast<int>(e % k_lanes), share[e]);
   }
@@ -164,8 +163,7 @@ class Conduction final : public ConductionBlock {
     // part across the edge.
     ConductionMatrix<n_nodes> m{};
     const auto loss = losses_.find(batch);
-    const Lane share =
-        shares_.empty() ? Lane(factor) : Lane(factor) * shares_[static_cast<std::size_t>(batch)];
+    const Lane share = shares_.empty() ? Lane(factor) : Lane(factor) * shares_[as_size(batch)];
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane* g = geometry_.gradients_at(batch, q);
       const Lane w = geometry_.weight_at(batch, q) * share;

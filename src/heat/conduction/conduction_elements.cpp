@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mesh/block_part.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -40,12 +41,12 @@ void ConductionElements::find_field_nodes(std::size_t body) {
   if (potentials_[body].constant()) return;
   std::vector<char> of_body(mesh_.x.size(), 0);
   for (const mesh::ElementBlock& block : mesh_.blocks)
-    if (static_cast<std::size_t>(block.body) == body)
-      for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+    if (as_size(block.body) == body)
+      for (const Index node : block.nodes) of_body[as_size(node)] = 1;
   Field& u = fields_[body];
-  u.nodes.reserve(static_cast<std::size_t>(std::count(of_body.begin(), of_body.end(), 1)));
+  u.nodes.reserve(as_size(std::count(of_body.begin(), of_body.end(), 1)));
   for (std::size_t i = 0; i < of_body.size(); ++i)
-    if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
+    if (of_body[i] != 0) u.nodes.push_back(as_index(i));
 }
 
 void ConductionElements::bind(linear::BlockMatrix& matrix) {
@@ -69,7 +70,7 @@ const double* ConductionElements::potential(std::size_t body, std::span<const do
   if (potentials_[body].constant() || field.nodes.empty()) return temperature.data();
   field.value.resize(mesh_.x.size());
   for (const Index node : field.nodes) {
-    const auto i = static_cast<std::size_t>(node);
+    const auto i = as_size(node);
     field.value[i] = potentials_[body].value(temperature[i]);
   }
   return field.value.data();
@@ -80,13 +81,13 @@ void ConductionElements::add_tangent(std::span<const double> temperature) {
   for (std::size_t b = 0; b < fields_.size(); ++b) {
     if (!fields_[b].nodes.empty()) fields_[b].value.resize(mesh_.x.size());
     for (const Index node : fields_[b].nodes) {
-      const auto i = static_cast<std::size_t>(node);
+      const auto i = as_size(node);
       fields_[b].value[i] = potentials_[b].conductivity(temperature[i]);
     }
   }
   // A constant conductivity is a factor of the whole block.
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
+    const auto body = as_size(mesh_.blocks[b].body);
     if (!active_.body(static_cast<int>(body))) continue;
     if (potentials_[body].constant())
       block(b).add_tangent(potentials_[body].reference(), {}, *matrix_);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 namespace {
@@ -22,10 +24,6 @@ double value(const KirchhoffPotential& u, double temperature) {
   return u.constant() ? u.reference() * temperature : u.value(temperature);
 }
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 }  // namespace
 
 ConductionLimiter::ConductionLimiter(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials)
@@ -39,24 +37,24 @@ void ConductionLimiter::clear() {
 void ConductionLimiter::add_body(int body, linear::BlockMatrix& matrix) {
   // A pair of nodes needs a limit where its entry of the conduction matrix is positive, beyond rounding
   // against the smaller of the two diagonals.
-  const auto n = at(mesh_.n_owned_nodes);
+  const auto n = as_size(mesh_.n_owned_nodes);
   std::vector<double> diagonal(mesh_.x.size());
-  for (std::size_t i = 0; i < n; ++i) diagonal[i] = *matrix.diagonal_block(static_cast<Index>(i));
+  for (std::size_t i = 0; i < n; ++i) diagonal[i] = *matrix.diagonal_block(as_index(i));
   ghosts_.update(diagonal, 1);
   const std::span<const std::int64_t> start = matrix.row_start();
   const std::span<const Index> columns = matrix.columns();
   Body of_body{body, {}, {}};
   for (std::size_t i = 0; i < n; ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const Index j = columns[static_cast<std::size_t>(s)];
+      const Index j = columns[as_size(s)];
       const double k = *matrix.block(s);
-      if (j > static_cast<Index>(i) && k > k_rounding * std::min(diagonal[i], diagonal[at(j)]))
-        of_body.pairs.push_back({static_cast<Index>(i), j, k, s, matrix.slot(j, static_cast<Index>(i))});
+      if (j > as_index(i) && k > k_rounding * std::min(diagonal[i], diagonal[as_size(j)]))
+        of_body.pairs.push_back({as_index(i), j, k, s, matrix.slot(j, as_index(i))});
     }
   of_body.pairs.shrink_to_fit();
   // Diagonals are kept for the bounds.
   for (std::size_t i = 0; i < n; ++i)
-    if (diagonal[i] > 0) of_body.diagonal.push_back({static_cast<Index>(i), diagonal[i]});
+    if (diagonal[i] > 0) of_body.diagonal.push_back({as_index(i), diagonal[i]});
   bodies_.push_back(std::move(of_body));
 }
 
@@ -64,22 +62,22 @@ void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
   // Nodes that have a pair with a positive entry on any body take part; all others need no share and no
   // bounds. Whether there is anything to limit is decided by all processes together, because finding shares
   // is collective.
-  const auto n = at(mesh_.n_owned_nodes);
+  const auto n = as_size(mesh_.n_owned_nodes);
   std::vector<char> has_pairs(mesh_.x.size(), 0);
   std::size_t n_pairs = 0;
   for (const Body& body : bodies_) {
     n_pairs += body.pairs.size();
-    for (const Pair& p : body.pairs) has_pairs[at(p.i)] = has_pairs[at(p.j)] = 1;
+    for (const Pair& p : body.pairs) has_pairs[as_size(p.i)] = has_pairs[as_size(p.j)] = 1;
   }
   needed_ = parallel::any_process(n_pairs > 0);
   quadratic_ = parallel::any_process(
       std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
                   [](const mesh::ElementBlock& b) { return mesh::order(b.shape) == 2; }));
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-    if (has_pairs[at(i)] != 0) nodes_.push_back(i);
+    if (has_pairs[as_size(i)] != 0) nodes_.push_back(i);
   // The diagonal is kept at nodes with pairs alone, since only their bounds are computed.
   for (Body& body : bodies_) {
-    std::erase_if(body.diagonal, [&](const Diagonal& d) { return has_pairs[at(d.node)] == 0; });
+    std::erase_if(body.diagonal, [&](const Diagonal& d) { return has_pairs[as_size(d.node)] == 0; });
     body.diagonal.shrink_to_fit();
   }
   if (!needed_) {
@@ -102,46 +100,46 @@ void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
 /// gradient. A direction that leads out of the body has no limit, because no neighbour is hotter there.
 void ConductionLimiter::find_factors() {
   constexpr double k_outward = 0.1;  ///< of the longest edge
-  const auto n = at(mesh_.n_owned_nodes);
+  const auto n = as_size(mesh_.n_owned_nodes);
   // The neighbours of every owned node, from half of the matrix or all of it.
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
   const auto for_pairs = [&](auto f) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-        const Index j = columns[static_cast<std::size_t>(s)];
-        if (j > static_cast<Index>(i)) f(static_cast<Index>(i), j);
+        const Index j = columns[as_size(s)];
+        if (j > as_index(i)) f(as_index(i), j);
       }
   };
   std::vector<std::int64_t> count(n + 1, 0);
   const auto owned = [&](Index j) { return j < mesh_.n_owned_nodes; };
   for_pairs([&](Index i, Index j) {
-    ++count[at(i) + 1];
-    if (owned(j)) ++count[at(j) + 1];
+    ++count[as_size(i) + 1];
+    if (owned(j)) ++count[as_size(j) + 1];
   });
   // Rows of neighbours in one array: counts become starts, then the pairs are filled in.
   for (std::size_t i = 1; i <= n; ++i) count[i] += count[i - 1];
-  std::vector<Index> neighbours(static_cast<std::size_t>(count[n]));
+  std::vector<Index> neighbours(as_size(count[n]));
   std::vector<std::int64_t> next(count.begin(), count.end() - 1);
   for_pairs([&](Index i, Index j) {
-    neighbours[static_cast<std::size_t>(next[at(i)]++)] = j;
-    if (owned(j)) neighbours[static_cast<std::size_t>(next[at(j)]++)] = i;
+    neighbours[as_size(next[as_size(i)]++)] = j;
+    if (owned(j)) neighbours[as_size(next[as_size(j)]++)] = i;
   });
   // Flows of the pairs at the reference conductivity, and the diagonal that bounds them.
   std::vector<std::vector<std::pair<Index, double>>> partners(n);
   std::vector<double> diagonal(n, 0.0);
   for (const Body& body : bodies_) {
-    const double kappa = potentials_[static_cast<std::size_t>(body.body)].reference();
+    const double kappa = potentials_[as_size(body.body)].reference();
     for (const Pair& p : body.pairs) {
-      partners[at(p.i)].emplace_back(p.j, kappa * p.k);
-      if (owned(p.j)) partners[at(p.j)].emplace_back(p.i, kappa * p.k);
+      partners[as_size(p.i)].emplace_back(p.j, kappa * p.k);
+      if (owned(p.j)) partners[as_size(p.j)].emplace_back(p.i, kappa * p.k);
     }
-    for (const Diagonal& d : body.diagonal) diagonal[at(d.node)] += kappa * d.k;
+    for (const Diagonal& d : body.diagonal) diagonal[as_size(d.node)] += kappa * d.k;
   }
   gamma_.assign(n, k_least_factor);
   const auto minus = [&](Index j, Index i) {
-    mesh::Point d = mesh_.x[at(j)];
-    for (std::size_t k = 0; k < 3; ++k) d[k] -= mesh_.x[at(i)][k];
+    mesh::Point d = mesh_.x[as_size(j)];
+    for (std::size_t k = 0; k < 3; ++k) d[k] -= mesh_.x[as_size(i)][k];
     return d;
   };
   const auto dot = [](const mesh::Point& a, const mesh::Point& b) {
@@ -151,8 +149,8 @@ void ConductionLimiter::find_factors() {
   for (const Index i : nodes_) {
     edges.clear();
     double longest = 0;
-    for (std::int64_t s = count[at(i)]; s < count[at(i) + 1]; ++s) {
-      edges.push_back(minus(neighbours[static_cast<std::size_t>(s)], i));
+    for (std::int64_t s = count[as_size(i)]; s < count[as_size(i) + 1]; ++s) {
+      edges.push_back(minus(neighbours[as_size(s)], i));
       longest = std::max(longest, std::sqrt(dot(edges.back(), edges.back())));
     }
     // Of a linear field with the gradient g: the neighbours' highest rise `reach`, and what the
@@ -162,8 +160,8 @@ void ConductionLimiter::find_factors() {
       double reach = 0, pull = 0;
       for (const mesh::Point& d : edges) reach = std::max(reach, dot(g, d));
       if (reach <= k_outward * longest * std::sqrt(dot(g, g))) return;
-      for (const auto& [j, k] : partners[at(i)]) pull += k * std::max(0.0, -dot(g, minus(j, i)));
-      needed = std::max(needed, pull / (diagonal[at(i)] * reach));
+      for (const auto& [j, k] : partners[as_size(i)]) pull += k * std::max(0.0, -dot(g, minus(j, i)));
+      needed = std::max(needed, pull / (diagonal[as_size(i)] * reach));
     };
     // Directions are those of the edges and of the axes with their diagonals: among them one is
     // close to the worst.
@@ -177,7 +175,7 @@ void ConductionLimiter::find_factors() {
           if (x != 0 || y != 0 || z != 0)
             look({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
     // The reserve makes up for directions between those that were looked at.
-    gamma_[at(i)] = std::clamp(k_reserve * needed, k_least_factor, k_largest_factor);
+    gamma_[as_size(i)] = std::clamp(k_reserve * needed, k_least_factor, k_largest_factor);
   }
 }
 
@@ -191,7 +189,7 @@ void ConductionLimiter::find_extremes(std::span<const double> temperature) {
     const double here = temperature[i];
     double high = highest_[i], low = lowest_[i];
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const auto j = at(columns[static_cast<std::size_t>(s)]);
+      const auto j = as_size(columns[as_size(s)]);
       const double there = temperature[j];
       high = std::max(high, there);
       low = std::min(low, there);
@@ -209,9 +207,9 @@ template <class F>
 void ConductionLimiter::for_flows(std::span<const double> temperature, const F& f) const {
   std::size_t position = 0;
   for (const Body& body : bodies_) {
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body.body)];
+    const KirchhoffPotential& u = potentials_[as_size(body.body)];
     for (const Pair& p : body.pairs) {
-      const double ti = temperature[at(p.i)], tj = temperature[at(p.j)];
+      const double ti = temperature[as_size(p.i)], tj = temperature[as_size(p.j)];
       f(position++, p, p.k * (u.constant() ? u.reference() * (ti - tj) : u.value(ti) - u.value(tj)));
     }
   }
@@ -225,14 +223,14 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   // transport.
   std::fill(sums_.begin(), sums_.end(), 0.0);
   for_flows(temperature, [&](std::size_t, const Pair& p, double flow) {
-    const std::size_t i = 2 * at(p.i), j = 2 * at(p.j);
+    const std::size_t i = 2 * as_size(p.i), j = 2 * as_size(p.j);
     sums_[flow > 0 ? i : i + 1] += std::abs(flow);
     if (j < sums_.size()) sums_[flow > 0 ? j + 1 : j] += std::abs(flow);
   });
   // Flows of surfaces count along, since they are limited together with those of pairs.
   for (const LimitedFlow* f : flows) {
-    const std::size_t from = 2 * at(f->from) + (f->heat > 0 ? 1 : 0),
-                      to = 2 * at(f->to) + (f->heat > 0 ? 0 : 1);
+    const std::size_t from = 2 * as_size(f->from) + (f->heat > 0 ? 1 : 0),
+                      to = 2 * as_size(f->to) + (f->heat > 0 ? 0 : 1);
     if (from < sums_.size()) sums_[from] += std::abs(f->heat);
     if (to < sums_.size()) sums_[to] += std::abs(f->heat);
   }
@@ -240,15 +238,15 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   // What a node may gain at most without passing its neighbours (Q⁺, Q⁻): first what its
   // surroundings supply,
   for (const Index node : nodes_) {
-    const std::size_t i = at(node);
+    const std::size_t i = as_size(node);
     shares_[2 * i] = k_supply * gain[i];
     shares_[2 * i + 1] = k_supply * loss[i];
   }
   // then what flows of the monotone part allow, γ K_ii (u_max − u_i).
   for (const Body& body : bodies_) {
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body.body)];
+    const KirchhoffPotential& u = potentials_[as_size(body.body)];
     for (const Diagonal& d : body.diagonal) {
-      const std::size_t i = at(d.node);
+      const std::size_t i = as_size(d.node);
       const double here = value(u, temperature[i]), factor = gamma_[i] * d.k;
       shares_[2 * i] += factor * std::max(value(u, highest_[i]) - here, 0.0);
       shares_[2 * i + 1] += factor * std::max(here - value(u, lowest_[i]), 0.0);
@@ -261,7 +259,7 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   // The share of a node is Q/P; nodes with a prescribed temperature need no bound, and nodes that
   // are held take nothing.
   for (const Index node : nodes_) {
-    const std::size_t i = at(node);
+    const std::size_t i = as_size(node);
     for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) {
       shares_[k] = sums_[k] > 0 ? std::min(1.0, shares_[k] / sums_[k]) : 0.0;
       if (quadratic_) shares_[k] = 1;
@@ -274,12 +272,12 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   // Where nothing flows yet the direction is unknown, and the processes of the two nodes must agree: the
   // smaller share of both directions is taken.
   const auto left_of = [&](const Pair& p, double flow) {
-    const std::size_t i = 2 * at(p.i), j = 2 * at(p.j);
+    const std::size_t i = 2 * as_size(p.i), j = 2 * as_size(p.j);
     const double into_i = std::min(shares_[i], shares_[j + 1]), into_j = std::min(shares_[i + 1], shares_[j]);
     return 1.0 - (flow > 0 ? into_i : flow < 0 ? into_j : std::min(into_i, into_j));
   };
   const auto left_of_flow = [&](const LimitedFlow& f) {
-    const std::size_t from = 2 * at(f.from), to = 2 * at(f.to);
+    const std::size_t from = 2 * as_size(f.from), to = 2 * as_size(f.to);
     return 1.0 -
            (f.heat > 0 ? std::min(shares_[from + 1], shares_[to]) : std::min(shares_[from], shares_[to + 1]));
   };
@@ -298,11 +296,11 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
 }
 
 HeldNodes::Found HeldNodes::hold(std::span<const double> temperature, double lowest, double highest) {
-  if (held_.empty()) held_.assign(2 * at(mesh_.n_owned_nodes), 0);
+  if (held_.empty()) held_.assign(2 * as_size(mesh_.n_owned_nodes), 0);
   auto found = Found::none;
   // A node that is out of bounds once is held on that side from then on.
   for (const Index node : nodes_) {
-    const std::size_t i = at(node);
+    const std::size_t i = as_size(node);
     if (temperature[i] >= lowest && temperature[i] <= highest) continue;
     char& now = held_[2 * i + (temperature[i] > highest ? 0 : 1)];
     found = std::max(found, now == 0 ? Found::further : Found::as_before);
@@ -315,8 +313,8 @@ HeldNodes::Found HeldNodes::hold(std::span<const double> temperature, double low
 void ConductionLimiter::add_heat(std::span<const double> temperature, std::span<double> r) const {
   if (!needed_) return;
   for_flows(temperature, [&](std::size_t position, const Pair& p, double flow) {
-    r[at(p.i)] += left_[position] * flow;
-    if (p.j < mesh_.n_owned_nodes) r[at(p.j)] -= left_[position] * flow;
+    r[as_size(p.i)] += left_[position] * flow;
+    if (p.j < mesh_.n_owned_nodes) r[as_size(p.j)] -= left_[position] * flow;
   });
 }
 
@@ -325,7 +323,7 @@ void ConductionLimiter::for_held(const F& f) const {
   if (!needed_) return;
   std::size_t position = 0;
   for (const Body& body : bodies_) {
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body.body)];
+    const KirchhoffPotential& u = potentials_[as_size(body.body)];
     for (const Pair& p : body.pairs) {
       const double left = left_[position++];
       if (left != 0) f(u, p, left);
@@ -347,7 +345,7 @@ void ConductionLimiter::add_tangent(std::span<const double> temperature, linear:
   for_held([&](const KirchhoffPotential& u, const Pair& p, double left) {
     // What is left of each pair as a flow between two potentials, by its slopes.
     const auto slope = [&](Index node) {
-      return left * p.k * (u.constant() ? u.reference() : u.conductivity(temperature[at(node)]));
+      return left * p.k * (u.constant() ? u.reference() : u.conductivity(temperature[as_size(node)]));
     };
     const double of_i = slope(p.i), of_j = slope(p.j);
     *matrix.block(p.ij) -= of_j;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -67,7 +68,7 @@ struct Simplex {
   std::array<Point, k_nodes> area{};
 
   Simplex(const mesh::Mesh& mesh, std::span<const Index> nodes) : n(nodes.size()) {
-    for (std::size_t a = 0; a < n; ++a) x[a] = mesh.x[static_cast<std::size_t>(nodes[a])];
+    for (std::size_t a = 0; a < n; ++a) x[a] = mesh.x[as_size(nodes[a])];
     for (std::size_t a = 0; a < n; ++a) {
       const Point& p = x[(a + 1) % n];
       const Point first = difference(x[(a + 2) % n], p);
@@ -163,7 +164,7 @@ EdgeConduction::EdgeConduction(const mesh::Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     const double* from = all.data() + i * k_numbers;
     if (from[6] > 0)
-      wedges_[static_cast<Index>(i)] = {{from[0], from[1], from[2]}, {from[3], from[4], from[5]}, from[6]};
+      wedges_[as_index(i)] = {{from[0], from[1], from[2]}, {from[3], from[4], from[5]}, from[6]};
   }
 }
 
@@ -176,7 +177,7 @@ std::optional<EdgeLoss> EdgeConduction::loss(const mesh::Mesh& mesh, mesh::Shape
                                              const Index* nodes) const {
   if (wedges_.empty() || (shape != mesh::Shape::tri3 && shape != mesh::Shape::tet4)) return {};
   // Which nodes of the element lie on re-entrant edges.
-  const auto n = static_cast<std::size_t>(mesh::node_count(shape));
+  const auto n = as_size(mesh::node_count(shape));
   std::array<const mesh::Wedge*, k_nodes> wedges{};
   bool any = false;
   for (std::size_t a = 0; a < n; ++a) any = (wedges[a] = wedge(nodes[a])) != nullptr || any;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -30,7 +31,7 @@ void KeptConduction::forget() {
 
 void KeptConduction::keep() {
   if (kept()) return;
-  const auto n = static_cast<std::size_t>(matrix_->row_start().back());
+  const auto n = as_size(matrix_->row_start().back());
   find_node_bodies();
   shared_.clear();
   const std::span<const KirchhoffPotential> potentials = elements_.potentials();
@@ -58,9 +59,8 @@ void KeptConduction::keep() {
   // The sum goes back into the matrix, and is copied out again where other terms need the room.
   if (!one_body) std::copy(kept_.begin(), kept_.end(), matrix_->block(0));
   std::vector<double>().swap(kept_);
-  diagonal_.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
-  for (std::size_t i = 0; i < diagonal_.size(); ++i)
-    diagonal_[i] = *matrix_->diagonal_block(static_cast<Index>(i));
+  diagonal_.resize(as_size(mesh_.n_owned_nodes));
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) diagonal_[i] = *matrix_->diagonal_block(as_index(i));
   if (!only_diagonal_beside()) keep_apart();
 }
 
@@ -72,9 +72,9 @@ void KeptConduction::find_shared_pairs(int body) {
   for (std::size_t i = 0; i + 1 < start.size(); ++i) {
     if (node_body_[i] >= 0) continue;
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const Index j = columns[static_cast<std::size_t>(s)];
-      if (values[s] != 0 && node_body_[static_cast<std::size_t>(j)] < 0)
-        shared_.push_back({static_cast<Index>(i), j, body, values[s], s});
+      const Index j = columns[as_size(s)];
+      if (values[s] != 0 && node_body_[as_size(j)] < 0)
+        shared_.push_back({as_index(i), j, body, values[s], s});
     }
   }
 }
@@ -86,8 +86,7 @@ bool KeptConduction::only_diagonal_beside() const {
 void KeptConduction::keep_apart() {
   apart_ = true;
   if (diagonal_.empty()) return;
-  for (std::size_t i = 0; i < diagonal_.size(); ++i)
-    *matrix_->diagonal_block(static_cast<Index>(i)) = diagonal_[i];
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) *matrix_->diagonal_block(as_index(i)) = diagonal_[i];
   const double* const values = matrix_->block(0);
   kept_.assign(values, values + matrix_->row_start().back());
   std::vector<double>().swap(diagonal_);
@@ -102,7 +101,7 @@ void KeptConduction::find_node_bodies() {
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     if (!elements_.active().body(block.body)) continue;
     for (const Index node : block.nodes) {
-      int& body = node_body_[static_cast<std::size_t>(node)];
+      int& body = node_body_[as_size(node)];
       if (body == k_none) body = block.body;
       if (body != block.body) body = -1;
     }
@@ -129,10 +128,10 @@ std::span<double> KeptConduction::flow(std::span<const double> temperature) {
     const int own = node_body_.empty() ? 0 : node_body_[i];
     double sum = 0;
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+      const auto j = as_size(columns[as_size(s)]);
       const int body = own >= 0 ? own : node_body_[j];
       if (body < 0) continue;
-      const auto b = static_cast<std::size_t>(body);
+      const auto b = as_size(body);
       const double flow = entries[s] * (factor[b] * (potential[b][j] - potential[b][i]));
       sum += flow;
       if (half) flow_[j] -= flow;
@@ -140,8 +139,7 @@ std::span<double> KeptConduction::flow(std::span<const double> temperature) {
     flow_[i] += sum;
   }
   for (const SharedPair& pair : shared_) {
-    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j),
-               b = static_cast<std::size_t>(pair.body);
+    const auto i = as_size(pair.i), j = as_size(pair.j), b = as_size(pair.body);
     const double k = pair.k * potentials[b].reference();
     const double flow = k * (factor[b] * (potential[b][j] - potential[b][i]));
     flow_[i] += flow;
@@ -154,10 +152,10 @@ bool KeptConduction::assemble_diagonal(std::span<const double> slopes,
                                        const std::function<void()>& add_others) {
   if (diagonal_.empty() || !only_diagonal_beside()) return false;
   // The other terms are derivatives by temperature: a division makes them those by the potential.
-  for (std::size_t i = 0; i < diagonal_.size(); ++i) *matrix_->diagonal_block(static_cast<Index>(i)) = 0;
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) *matrix_->diagonal_block(as_index(i)) = 0;
   add_others();
   for (std::size_t i = 0; i < diagonal_.size(); ++i) {
-    double& diagonal = *matrix_->diagonal_block(static_cast<Index>(i));
+    double& diagonal = *matrix_->diagonal_block(as_index(i));
     if (!elements_.nodal().identity()) diagonal /= slopes[i];
     diagonal += diagonal_[i];
   }
@@ -173,8 +171,8 @@ void KeptConduction::add(std::span<const double> temperature, std::span<const do
     return;
   }
   const auto factor = [&](int body, Index node) {
-    const auto i = static_cast<std::size_t>(node);
-    const KirchhoffPotential& u = elements_.potentials()[static_cast<std::size_t>(body)];
+    const auto i = as_size(node);
+    const KirchhoffPotential& u = elements_.potentials()[as_size(body)];
     return u.conductivity(temperature[i]) / (u.reference() * slopes[i]);
   };
   const auto add = [&](linear::BlockMatrix::Slot slot, Index i, Index j, double k, double g_i, double g_j) {
@@ -187,14 +185,14 @@ void KeptConduction::add(std::span<const double> temperature, std::span<const do
   // Else entries to shared nodes scale with the conductivity of the body over the slope of the shared curve;
   // symmetric ones take the geometric mean.
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
-    const auto i = static_cast<Index>(row);
+    const auto i = as_index(row);
     const int own = node_body_[row];
     for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
-      const Index j = columns[static_cast<std::size_t>(s)];
-      const int other = node_body_[static_cast<std::size_t>(j)], body = own >= 0 ? own : other;
+      const Index j = columns[as_size(s)];
+      const int other = node_body_[as_size(j)], body = own >= 0 ? own : other;
       if (body < 0) continue;  // below
       // A ghost may belong to further bodies whose elements are not here: its slope tells.
-      const double kept = kept_[static_cast<std::size_t>(s)];
+      const double kept = kept_[as_size(s)];
       const bool plain = own >= 0 && other >= 0 && j < mesh_.n_owned_nodes;
       if (plain)
         values[s] += kept;
@@ -203,8 +201,7 @@ void KeptConduction::add(std::span<const double> temperature, std::span<const do
     }
   }
   for (const SharedPair& pair : shared_)
-    add(pair.slot, pair.i, pair.j,
-        pair.k * elements_.potentials()[static_cast<std::size_t>(pair.body)].reference(),
+    add(pair.slot, pair.i, pair.j, pair.k * elements_.potentials()[as_size(pair.body)].reference(),
         factor(pair.body, pair.i), factor(pair.body, pair.j));
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 KirchhoffPotential::KirchhoffPotential(const Table& conductivity)
@@ -30,7 +32,7 @@ KirchhoffPotential::KirchhoffPotential(const Table& conductivity)
 
 /// Counts the points that are not above the temperature: slope_[piece] is the slope there.
 std::size_t KirchhoffPotential::piece(double temperature) const {
-  return static_cast<std::size_t>(std::upper_bound(t_.begin(), t_.end(), temperature) - t_.begin());
+  return as_size(std::upper_bound(t_.begin(), t_.end(), temperature) - t_.begin());
 }
 
 double KirchhoffPotential::conductivity(double temperature) const {
@@ -48,7 +50,7 @@ double KirchhoffPotential::value(double temperature) const {
 
 double KirchhoffPotential::temperature(double value) const {
   if (constant()) return value / k_[0];
-  const auto i = static_cast<std::size_t>(std::upper_bound(u_.begin(), u_.end(), value) - u_.begin());
+  const auto i = as_size(std::upper_bound(u_.begin(), u_.end(), value) - u_.begin());
   const std::size_t from = i > 0 ? i - 1 : 0;
   const double u = value - u_[from];
   // k x + k'/2 x² = u, in the form that does not cancel for small k'

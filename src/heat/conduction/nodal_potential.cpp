@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials,
@@ -15,15 +17,15 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
   // With constant conductivities the potential is the temperature times a constant everywhere, and nothing
   // has to be looked up.
   if (identity_) return;
-  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto n = as_size(mesh.n_owned_nodes);
   // The bodies of a node are needed in rising order, in a list of rows: a node that several materials share
   // has a potential of each.
   const auto for_bodies = [&](const auto& take) {  // in rising order, with their owned nodes
     for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
       std::vector<char> there(mesh.x.size(), 0);
       for (const mesh::ElementBlock& block : mesh.blocks)
-        if (static_cast<std::size_t>(block.body) == body && active.body(block.body))
-          for (const Index node : block.nodes) there[static_cast<std::size_t>(node)] = 1;
+        if (as_size(block.body) == body && active.body(block.body))
+          for (const Index node : block.nodes) there[as_size(node)] = 1;
       for (std::size_t i = 0; i < n; ++i)
         if (there[i] != 0) take(i, static_cast<int>(body));
     }
@@ -32,9 +34,9 @@ NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const Kirchhoff
   start_.assign(n + 1, 0);
   for_bodies([&](std::size_t node, int) { ++start_[node + 1]; });
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-  bodies_.resize(static_cast<std::size_t>(start_.back()));
+  bodies_.resize(as_size(start_.back()));
   std::vector<Index> next(start_.begin(), start_.end() - 1);
-  for_bodies([&](std::size_t node, int body) { bodies_[static_cast<std::size_t>(next[node]++)] = body; });
+  for_bodies([&](std::size_t node, int body) { bodies_[as_size(next[node]++)] = body; });
   // Where every node of the process has one and the same body, the list is given up for its number alone.
   const bool alike = n > 0 && std::adjacent_find(start_.begin(), start_.end(),
                                                  [](Index a, Index b) { return b != a + 1; }) == start_.end();
@@ -50,7 +52,7 @@ double NodalPotential::value(Index node, double temperature) const {
   if (list.empty()) return temperature;
   double sum = 0;
   for (const int body : list) {
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body)];
+    const KirchhoffPotential& u = potentials_[as_size(body)];
     sum += u.constant() ? temperature : u.value(temperature) / u.reference();
   }
   return sum / static_cast<double>(list.size());
@@ -62,7 +64,7 @@ double NodalPotential::slope(Index node, double temperature) const {
   if (list.empty()) return 1.0;
   double sum = 0;
   for (const int body : list) {
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body)];
+    const KirchhoffPotential& u = potentials_[as_size(body)];
     sum += u.constant() ? 1.0 : u.conductivity(temperature) / u.reference();
   }
   return sum / static_cast<double>(list.size());
@@ -75,7 +77,7 @@ double NodalPotential::temperature(Index node, double value, double near) const 
   if (list.empty()) return value;
   // A node of one body is inverted in closed form.
   if (list.size() == 1) {
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(list.front())];
+    const KirchhoffPotential& u = potentials_[as_size(list.front())];
     return u.constant() ? value : u.temperature(value * u.reference());
   }
   // v rises and is smooth but for its slope's bends: Newton's method, within a bracket once there is one.

@@ -14,6 +14,7 @@
 #include "heat/conduction/kirchhoff_potential.hpp"
 #include "linear/active_set.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -31,7 +32,7 @@ class NodalPotential {
     const auto list = bodies(node);
     return list.size() == 1 && list.front() == body;
   }
-  const KirchhoffPotential& of_body(int body) const { return potentials_[static_cast<std::size_t>(body)]; }
+  const KirchhoffPotential& of_body(int body) const { return potentials_[as_size(body)]; }
   double value(Index node, double temperature) const;  ///< v [K]
   double slope(Index node, double temperature) const;  ///< c
   /// Θ(v) [K].
@@ -42,8 +43,8 @@ class NodalPotential {
  private:
   std::span<const int> bodies(Index node) const {
     if (start_.empty()) return bodies_;
-    const auto i = static_cast<std::size_t>(node);
-    return {bodies_.data() + start_[i], static_cast<std::size_t>(start_[i + 1] - start_[i])};
+    const auto i = as_size(node);
+    return {bodies_.data() + start_[i], as_size(start_[i + 1] - start_[i])};
   }
 
   std::span<const KirchhoffPotential> potentials_;

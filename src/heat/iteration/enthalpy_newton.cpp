@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
@@ -27,11 +28,11 @@ constexpr double k_less_tilt = 0.3, k_least_tilt = 2e-3;  ///< its fall, and whe
 EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
                                const parallel::GhostExchange& ghosts, double tolerance)
     : system_(system), storage_(storage), ghosts_(ghosts), tolerance_(tolerance) {
-  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto n = as_size(mesh.n_owned_nodes);
   for (auto* v : {&r_, &b_, &step_h_, &inverse_}) v->resize(n);
   plateaus_.per_latent.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double latent = storage_.latent_capacity(static_cast<Index>(i));
+    const double latent = storage_.latent_capacity(as_index(i));
     plateaus_.per_latent[i] = latent > 0 ? 1.0 / latent : 0.0;
   }
   plateaus_.any = parallel::any_process(storage.has_plateaus());
@@ -57,7 +58,7 @@ void EnthalpyNewton::evaluate(std::span<const double> temperature) {
 }
 
 double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
-  const double t = storage_.temperature(static_cast<Index>(i), heat);
+  const double t = storage_.temperature(as_index(i), heat);
   return plateaus_.tilt > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
 }
 
@@ -81,7 +82,7 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
   system_.assemble(temperature);
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     double& diagonal = *system_.matrix().diagonal_block(node);
     conductance += std::abs(diagonal * temperature[i]);
     inverse_[i] = storage_.slope(node, heat_[i]) + tilt(i);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "material/time_integration.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -26,10 +27,6 @@ constexpr double k_even = 1e-4;
 /// Share of the range of temperatures by which metal may sink, root mean square over its volume.
 constexpr double k_sunk = 3e-4;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 }  // namespace
 
 ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& storage,
@@ -38,7 +35,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
       storage_(storage),
       before_(old.temperature),
       now_(middle.temperature),
-      n_(at(storage.n_nodes())) {
+      n_(as_size(storage.n_nodes())) {
   // First Θ(H*) of every free node is found: H* is the heat content that the second stage starts from,
   // extrapolated through that of the first stage. The ranges of all temperatures at the start and at the end
   // of the first stage are kept with it.
@@ -49,7 +46,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
     range.highest = std::max(range.highest, temperature);
   };
   for (std::size_t i = 0; i < n_; ++i) {
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     if (!system.parts().elements.active().node(node)) continue;
     look(first, before_[i]);
     look(second, now_[i]);
@@ -92,8 +89,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
 }
 
 bool ExtrapolationGuard::free(std::size_t i) const {
-  return system_.parts().elements.active().node(static_cast<Index>(i)) &&
-         !system_.parts().prescribed.fixed()[i];
+  return system_.parts().elements.active().node(as_index(i)) && !system_.parts().prescribed.fixed()[i];
 }
 
 /// Calls f(node, neighbour) for all neighbours of the owned nodes, which may be ghosts.
@@ -103,7 +99,7 @@ void ExtrapolationGuard::for_neighbours(const F& f) const {
   const std::span<const Index> columns = system_.matrix().columns();
   for (std::size_t i = 0; i < n_; ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const auto j = at(columns[static_cast<std::size_t>(s)]);
+      const auto j = as_size(columns[as_size(s)]);
       f(i, j);
       if (j > i && j < n_) f(j, i);  // half of the pattern may be all that there is
     }
@@ -160,8 +156,8 @@ bool ExtrapolationGuard::turns_back(const ThermalState& next, const parallel::Gh
   }
   double squares = 0, volume = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double at_node = storage_.sum(
-        static_cast<Index>(i), [](const material::Material& m) { return m.solidification() ? 1.0 : 0.0; });
+    const double at_node =
+        storage_.sum(as_index(i), [](const material::Material& m) { return m.solidification() ? 1.0 : 0.0; });
     squares += at_node * sunk[i] * sunk[i];
     volume += at_node;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "heat/loads/temperature_range.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -13,7 +14,7 @@ HeatContributions::HeatContributions(std::vector<linear::Contribution*> contribu
   // Contributions that bring heat of their own make bounds of temperature impossible; those that only store
   // do not.
   heat_ = std::ranges::any_of(contributions_, [](const linear::Contribution* c) { return !c->stores(); });
-  if (!contributions_.empty()) contributed_.resize(static_cast<std::size_t>(n_owned));
+  if (!contributions_.empty()) contributed_.resize(as_size(n_owned));
   powers_.resize(contributions_.size());
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "heat/loads/temperature_range.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -25,7 +26,7 @@ bool HeatLimits::find(std::span<const double> temperature, double negligible) {
   // For every node what flows in and what flows out is summed, as magnitudes: bounds let through what sources
   // and surfaces bring. Conduction without limits comes first, then films, fluxes and radiation, then
   // sources.
-  const auto n = static_cast<std::size_t>(parts_.prescribed.n_owned());
+  const auto n = as_size(parts_.prescribed.n_owned());
   std::vector<double> gain(n), loss(n);
   const std::span<const double> flow = parts_.conduction.flow(temperature);
   for (std::size_t i = 0; i < n; ++i) (flow[i] > 0 ? gain : loss)[i] += std::abs(flow[i]);

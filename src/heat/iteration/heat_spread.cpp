@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::heat {
@@ -22,9 +23,9 @@ double dot(std::span<const double> a, std::span<const double> b) {
 
 /// [owned node] [J/K]
 std::vector<double> HeatSpread::capacities(std::span<const double> temperature) const {
-  std::vector<double> capacity(static_cast<std::size_t>(storage_.n_nodes()));
+  std::vector<double> capacity(as_size(storage_.n_nodes()));
   for (std::size_t i = 0; i < capacity.size(); ++i)
-    capacity[i] = storage_.sum(static_cast<Index>(i), [&](const material::Material& m) {
+    capacity[i] = storage_.sum(as_index(i), [&](const material::Material& m) {
       return m.density * m.specific_heat.value(temperature[i]);
     });
   return capacity;
@@ -50,7 +51,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
   std::vector<double> slope(temperature.size(), 1.0);
   // c = dv/dΘ: in the potential v the matrix of conduction is symmetric.
   if (!potential.identity()) {
-    for (std::size_t i = 0; i < n; ++i) slope[i] = potential.slope(static_cast<Index>(i), temperature[i]);
+    for (std::size_t i = 0; i < n; ++i) slope[i] = potential.slope(as_index(i), temperature[i]);
     ghosts_.update(slope, 1);
   }
   system_.assemble_symmetric(temperature, slope);
@@ -58,7 +59,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
   std::vector<double> inverse(n), r(n), x(n, 0.0), product(n), z(n), direction(temperature.size(), 0.0);
   // The diagonal gets the capacity over τ; nodes without an equation are kept out by a zero.
   for (std::size_t i = 0; i < n; ++i) {
-    double& diagonal = *a.diagonal_block(static_cast<Index>(i));
+    double& diagonal = *a.diagonal_block(as_index(i));
     diagonal += capacity[i] / (dt * slope[i]);
     const bool free = system_.parts().prescribed.fixed()[i] == 0 && diagonal > 0;
     inverse[i] = free ? 1.0 / diagonal : 0.0;  // zero keeps a node out

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/common_failure.hpp"
 
@@ -166,8 +167,7 @@ bool HeatSystem::follow_radiation(std::span<const double> temperature, double to
 
 double HeatSystem::entropy_power(std::span<const double> temperature) const {
   double sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh_.n_owned_nodes); ++i)
-    sum -= supplied_[i] / temperature[i];
+  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) sum -= supplied_[i] / temperature[i];
   return sum;
 }
 
@@ -192,16 +192,16 @@ void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
   double* values = matrix_->block(0);
-  const auto root = [&](Index i) { return 1.0 / std::sqrt(slopes[static_cast<std::size_t>(i)]); };
+  const auto root = [&](Index i) { return 1.0 / std::sqrt(slopes[as_size(i)]); };
   for (std::size_t row = 0; row + 1 < start.size(); ++row)
     for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
       double& value = values[s];
       if (value == 0) continue;
-      const Index column = columns[static_cast<std::size_t>(s)];
-      const double by_row = root(static_cast<Index>(row)), by_column = root(column), of_t = value;
+      const Index column = columns[as_size(s)];
+      const double by_row = root(as_index(row)), by_column = root(column), of_t = value;
       value *= by_row * by_column;
-      if (column != static_cast<Index>(row))
-        parts_.unsymmetric.note(*matrix_, mesh_.n_owned_nodes, static_cast<Index>(row), column, value,
+      if (column != as_index(row))
+        parts_.unsymmetric.note(*matrix_, mesh_.n_owned_nodes, as_index(row), column, value,
                                 of_t * by_column * by_column, of_t * by_row * by_row);
     }
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 LocalSweeps::LocalSweeps(const linear::BlockMatrix& matrix, std::span<const double> residual,
@@ -45,7 +47,7 @@ void LocalSweeps::copy_rows(const linear::BlockMatrix& matrix, std::size_t n_own
   const auto for_entries = [&](const auto& take) {
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       for (std::int64_t s = row_start[nodes_[k]]; s < row_start[nodes_[k] + 1]; ++s) {
-        const auto column = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+        const auto column = as_size(columns[as_size(s)]);
         const std::uint32_t other = column < n_owned ? position[column] : k_none;
         if (other == k_none) continue;
         take(k, other, values[s]);
@@ -74,8 +76,8 @@ void LocalSweeps::copy_couplings(const linear::BlockMatrix& matrix, std::size_t 
     // are old.
     float magnitudes = 0;
     for (std::int64_t s = row_start[nodes_[k]]; s < row_start[nodes_[k] + 1]; ++s) {
-      const Index column = columns[static_cast<std::size_t>(s)];
-      if (static_cast<std::size_t>(column) < n_owned) continue;
+      const Index column = columns[as_size(s)];
+      if (as_size(column) < n_owned) continue;
       const auto entry = static_cast<float>(values[s]);
       couplings_.push_back({static_cast<std::uint32_t>(k), column, entry});
       magnitudes += std::abs(entry);
@@ -91,7 +93,7 @@ void LocalSweeps::copy_couplings(const linear::BlockMatrix& matrix, std::size_t 
 void LocalSweeps::follow_other_processes() {
   ghosts_.update(change_, 1);
   for (const Coupling& c : couplings_)
-    residual_[c.position] += static_cast<double>(c.entry) * change_[static_cast<std::size_t>(c.ghost)] -
+    residual_[c.position] += static_cast<double>(c.entry) * change_[as_size(c.ghost)] -
                              static_cast<double>(std::abs(c.entry)) * change_[nodes_[c.position]];
   std::fill(change_.begin(), change_.end(), 0.0);
 }

@@ -7,6 +7,7 @@
 #include "heat/iteration/heat_system.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "heat/storage/storage_curve.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -22,7 +23,7 @@ class NodeCurves {
   StorageCurve::AtHeat at_heat(Index node, double heat) const {
     const std::optional<NodeShare> share = only_share(node);
     if (!share) return sum_at_heat(node, heat);
-    StorageCurve::AtHeat at = curves_[static_cast<std::size_t>(share->body)].at_heat(heat / share->weight);
+    StorageCurve::AtHeat at = curves_[as_size(share->body)].at_heat(heat / share->weight);
     at.slope /= share->weight;
     return at;
   }
@@ -32,8 +33,7 @@ class NodeCurves {
   StorageCurve::AtPotential at_potential(Index node, double potential, double near) const {
     const std::optional<NodeShare> share = only_share(node);
     if (!share) return sum_at_potential(node, potential, near);
-    const StorageCurve::AtPotential at =
-        curves_[static_cast<std::size_t>(share->body)].at_potential(potential);
+    const StorageCurve::AtPotential at = curves_[as_size(share->body)].at_potential(potential);
     return {at.temperature, share->weight * at.lower, share->weight * at.upper, at.slope / share->weight};
   }
 

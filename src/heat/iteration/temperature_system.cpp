@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -68,8 +69,7 @@ linear::BlockMatrix& TemperatureSystem::tangent(std::span<const double> x) {
   slope_.resize(mesh_.x.size(), 1.0);
   // Slopes of the potential make the matrix symmetric in it.
   if (!potential.identity()) {
-    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      slope_[static_cast<std::size_t>(i)] = potential.slope(i, x[static_cast<std::size_t>(i)]);
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) slope_[as_size(i)] = potential.slope(i, x[as_size(i)]);
     ghosts_.update(slope_, 1);
   }
   const auto add_storage = [this, x](linear::BlockMatrix& matrix) {
@@ -94,7 +94,7 @@ std::unique_ptr<linear::TangentSolver> TemperatureSystem::solver(linear::Tangent
 double TemperatureSystem::round_off(std::span<const double> x) const {
   double sum = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const double part = *system_.matrix().diagonal_block(i) * x[static_cast<std::size_t>(i)];
+    const double part = *system_.matrix().diagonal_block(i) * x[as_size(i)];
     sum += part * part;
   }
   constexpr double rounding = 2e-15;

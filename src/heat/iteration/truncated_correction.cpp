@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "heat/iteration/truncated_newton.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
@@ -39,7 +40,7 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const fl
   {
     const profile::Part part("assembly");
     for (std::size_t i = 0; i < n; ++i) {
-      const auto node = static_cast<Index>(i);
+      const auto node = as_index(i);
       double& diagonal = *a.diagonal_block(node);
       if (!alone) of_a[i] = diagonal;
       double stiffness = chords.empty() ? 0.0 : static_cast<double>(chords[i]);
@@ -63,8 +64,7 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const fl
   ghosts_.update(work_.step, 1);
   const bool unsymmetric = parallel::any_process(!system_.parts().unsymmetric.entries().empty());
   if (report.converged && unsymmetric) report.iterations += refine(held, forcing);
-  for (std::size_t i = 0; i < n; ++i)
-    *a.diagonal_block(static_cast<Index>(i)) = alone ? work_.diagonal[i] : of_a[i];
+  for (std::size_t i = 0; i < n; ++i) *a.diagonal_block(as_index(i)) = alone ? work_.diagonal[i] : of_a[i];
   if (!report.converged) return report;
   multiply_exactly(work_.step, work_.product, {});
   return report;
@@ -75,7 +75,7 @@ void TruncatedNewton::multiply_exactly(std::span<double> step, std::span<double>
                                        std::span<const char> held) {
   system_.matrix().multiply(step, product);
   for (const UnsymmetricPart::Entry& e : system_.parts().unsymmetric.entries())
-    product[static_cast<std::size_t>(e.row)] += e.value * step[static_cast<std::size_t>(e.column)];
+    product[as_size(e.row)] += e.value * step[as_size(e.column)];
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i]) product[i] = 0;
 }
@@ -143,7 +143,7 @@ void TruncatedNewton::find_chords(std::span<float> chords) const {
   for (std::size_t i = 0; i < work_.r.size(); ++i) {
     chords[i] = 0;
     if (system_.parts().prescribed.fixed()[i] || work_.step[i] == 0) continue;
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     const double slope = storage_.point(node, of_step_.heat[i]).slope,
                  c = potential.slope(node, of_step_.temperature[i]);
     const double v = potential.value(node, of_step_.temperature[i]) + work_.step[i];
@@ -168,7 +168,7 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
   // of their temperature.
   std::vector<float> chords(work_.r.size()), before(work_.r.size());
   for (std::size_t i = 0; i < work_.r.size(); ++i) {
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     if (storage_.point(node, of_step_.heat[i]).slope == 0)
       chords[i] = static_cast<float>(storage_.capacity(node, of_step_.temperature[i]) /
                                      (of_step_.dt * potential.slope(node, of_step_.temperature[i])));
@@ -190,7 +190,7 @@ linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
     // Changes count in heat (chord times step), summed over all nodes.
     double change = 0, all = 0;
     for (std::size_t i = 0; i < work_.r.size(); ++i) {
-      const auto node = static_cast<Index>(i);
+      const auto node = as_index(i);
       const double slope = storage_.point(node, of_step_.heat[i]).slope;
       const double d = chords[i] > 0 && std::isfinite(chords[i]) ? static_cast<double>(chords[i])
                        : slope > 0                               ? 1.0 / (of_step_.dt * slope)
@@ -212,7 +212,7 @@ linear::LinearReport TruncatedNewton::correct_beside_kinks(double forcing) {
     if (work_.step[i] == 0 || work_.curve_slope[i] == 0) continue;
     const double part = k_stuck_step * work_.step[i];
     const StorageCurve::AtPotential at =
-        curves_.at_potential(static_cast<Index>(i), work_.potential[i] + part, of_step_.temperature[i]);
+        curves_.at_potential(as_index(i), work_.potential[i] + part, of_step_.temperature[i]);
     const double end = work_.step[i] < 0 ? at.upper : at.lower;
     if ((end - of_step_.heat[i]) / part > k_kink / work_.curve_slope[i]) chords[i] = HUGE_VALF;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "heat/storage/plateau_watch.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
@@ -38,7 +39,7 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
       relaxed_(std::move(relaxed)) {}
 
 void TruncatedNewton::allocate() {
-  work_.r.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
+  work_.r.resize(as_size(mesh_.n_owned_nodes));
   for (auto* v : {&work_.diagonal, &work_.product, &work_.potential, &work_.curve_slope})
     v->resize(work_.r.size());
   work_.step.resize(mesh_.x.size());
@@ -77,7 +78,7 @@ void TruncatedNewton::assemble() {
   std::vector<double> slope(mesh_.x.size(), 1.0);  // c = dv/dΘ
   if (!potential.identity()) {
     for (std::size_t i = 0; i < work_.r.size(); ++i)
-      slope[i] = potential.slope(static_cast<Index>(i), of_step_.temperature[i]);
+      slope[i] = potential.slope(as_index(i), of_step_.temperature[i]);
     ghosts_.update(slope, 1);
   }
   system_.assemble_symmetric(of_step_.temperature, slope);
@@ -85,7 +86,7 @@ void TruncatedNewton::assemble() {
   // Σ |A_ii Θ_i|: the scale against which rounding of the residual is judged.
   double conductance = 0;
   for (std::size_t i = 0; i < work_.r.size(); ++i) {
-    work_.diagonal[i] = *a.diagonal_block(static_cast<Index>(i));
+    work_.diagonal[i] = *a.diagonal_block(as_index(i));
     conductance += std::abs(work_.diagonal[i] * slope[i] * of_step_.temperature[i]);
   }
   sums_.conductance = parallel::global_sum(conductance);
@@ -96,8 +97,7 @@ void TruncatedNewton::assemble() {
   const double* values = a.block(0);
   for (std::size_t i = 0; i < work_.r.size(); ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
-      if (columns[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes)
-        work_.diagonal[i] += std::abs(values[s]);
+      if (columns[as_size(s)] >= mesh_.n_owned_nodes) work_.diagonal[i] += std::abs(values[s]);
 }
 
 /// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "heat/iteration/truncated_newton.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
@@ -21,7 +22,7 @@ void TruncatedNewton::move(double alpha) {
   for (std::size_t i = 0; i < work_.r.size(); ++i) {
     if (work_.step[i] == 0) continue;
     const StorageCurve::AtPotential at = curves_.at_potential(
-        static_cast<Index>(i), work_.potential[i] + alpha * work_.step[i], of_step_.temperature[i]);
+        as_index(i), work_.potential[i] + alpha * work_.step[i], of_step_.temperature[i]);
     of_step_.temperature[i] = at.temperature;
     of_step_.heat[i] = work_.step[i] < 0 ? at.upper : at.lower;
     work_.curve_slope[i] = at.slope;
@@ -32,7 +33,7 @@ void TruncatedNewton::move(double alpha) {
 void TruncatedNewton::take(double alpha) {
   for (std::size_t i = 0; i < work_.r.size(); ++i) {
     if (work_.step[i] == 0) continue;
-    if (const auto node = static_cast<Index>(i); work_.curve_slope[i] > 0)
+    if (const auto node = as_index(i); work_.curve_slope[i] > 0)
       work_.potential[i] += alpha * work_.step[i];
     else
       look_up(node);
@@ -88,7 +89,7 @@ bool TruncatedNewton::find_length(double least) {
     for (std::size_t i = 0; i < work_.r.size(); ++i) {
       if (work_.step[i] == 0) continue;
       of_step_.heat[i] = work_.from_heat[i];
-      of_step_.temperature[i] = look_up(static_cast<Index>(i));
+      of_step_.temperature[i] = look_up(as_index(i));
     }
     return false;
   }

@@ -4,6 +4,7 @@
 
 #include "heat/iteration/local_sweeps.hpp"
 #include "heat/iteration/truncated_newton.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
@@ -26,7 +27,7 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
   if (std::abs(residual) <= progress_.negligible || system_.parts().prescribed.fixed()[i] ||
       (!relaxed_.empty() && relaxed_[i] == 0))
     return 0;
-  const auto node = static_cast<Index>(i);
+  const auto node = as_index(i);
   const double a = std::max(work_.diagonal[i], 0.0), h0 = of_step_.heat[i], v0 = work_.potential[i],
                rate = of_step_.rate;
   StorageCurve::AtHeat at{of_step_.temperature[i], v0, work_.curve_slope[i]};
@@ -60,8 +61,7 @@ void TruncatedNewton::sweep() {
   const auto n = work_.r.size();
   const auto for_later = [&](std::size_t i, const auto& take) {
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
-      if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j > i && j < n)
-        take(j, values[s]);
+      if (const auto j = as_size(columns[as_size(s)]); j > i && j < n) take(j, values[s]);
   };
   const auto visit = [&](std::size_t i) {
     const double heat = of_step_.heat[i], change = relax(i, work_.r[i]);
@@ -94,13 +94,13 @@ void TruncatedNewton::follow_other_processes() {
   const double* values = a.block(0);
   for (std::size_t i = 0; i < work_.r.size(); ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
-      if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j >= work_.r.size())
+      if (const auto j = as_size(columns[as_size(s)]); j >= work_.r.size())
         work_.r[i] += values[s] * work_.step[j] - std::abs(values[s]) * work_.step[i];
 }
 
 /// Finds v and dv/dH of a node at its heat; returns Θ. From then on sweeps and steps carry them along.
 double TruncatedNewton::look_up(Index node) {
-  const auto i = static_cast<std::size_t>(node);
+  const auto i = as_size(node);
   const StorageCurve::AtHeat at = curves_.at_heat(node, of_step_.heat[i]);
   work_.potential[i] = at.potential;
   work_.curve_slope[i] = at.slope;
@@ -119,7 +119,7 @@ void TruncatedNewton::relax_nodes(bool all) {
     progress_.negligible =
         all ? 0 : k_negligible * options_.tolerance * sums_.moved / static_cast<double>(mesh_.n_global_nodes);
     if (!progress_.looked_up)
-      for (std::size_t i = 0; i < work_.r.size(); ++i) look_up(static_cast<Index>(i));
+      for (std::size_t i = 0; i < work_.r.size(); ++i) look_up(as_index(i));
     progress_.looked_up = true;
     sweep();
   }

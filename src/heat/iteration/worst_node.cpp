@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::heat {
 
 Index WorstNode::owned() const {
   const bool seen = size > -HUGE_VAL;
-  return processes::find_largest(size).rank == processes::rank() && seen ? static_cast<Index>(node) : -1;
+  return processes::find_largest(size).rank == processes::rank() && seen ? as_index(node) : -1;
 }
 
 std::string WorstNode::text(const mesh::Mesh& mesh, std::span<const double> temperature,

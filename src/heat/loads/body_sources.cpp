@@ -6,6 +6,7 @@
 #include <map>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::heat {
@@ -35,7 +36,7 @@ void BodySources::add_sources(const Where& where, const std::vector<Source>& sou
     Volume volume{.name = source.name, .power = source.power, .factor = source.factor};
     add_nodal_shares(where, body, volume);
     if (volume.placed()) place(where, body, volume);
-    volume.heat.resize(static_cast<std::size_t>(where.mesh.n_owned_nodes));
+    volume.heat.resize(as_size(where.mesh.n_owned_nodes));
     sources_.push_back(std::move(volume));
   }
 }
@@ -49,13 +50,13 @@ void BodySources::add_burning(const Where& where, const std::vector<Exothermic>&
     Volume volume{.name = burning.name, .power = 0.0, .factor = 1.0};
     volume.burning = burning;
     add_nodal_shares(where, body, volume);
-    volume.heat.resize(static_cast<std::size_t>(where.mesh.n_owned_nodes));
+    volume.heat.resize(as_size(where.mesh.n_owned_nodes));
     sources_.push_back(std::move(volume));
     if (!where.active.body(body)) continue;
     for (const mesh::ElementBlock& block : where.mesh.blocks)
       if (block.body == body)
         for (const Index node : block.nodes) {
-          double& lowest = ignition_[static_cast<std::size_t>(node)];
+          double& lowest = ignition_[as_size(node)];
           lowest = std::min(lowest, burning.ignition);
         }
   }
@@ -64,10 +65,10 @@ void BodySources::add_burning(const Where& where, const std::vector<Exothermic>&
 void BodySources::add_nodal_shares(const Where& where, int body, Volume& volume) {
   // The share of a node is the integral of its shape function over the body, or the lumped weight where heat
   // is stored at the nodes.
-  std::vector<double> weight(static_cast<std::size_t>(where.mesh.n_owned_nodes), 0.0);
+  std::vector<double> weight(as_size(where.mesh.n_owned_nodes), 0.0);
   for (const mesh::ElementBlock& block : where.mesh.blocks) {
     if (block.body != body || !where.active.body(body)) continue;
-    const PackVector<Lane> weights = where.at_nodes[static_cast<std::size_t>(body)] != 0
+    const PackVector<Lane> weights = where.at_nodes[as_size(body)] != 0
                                          ? mesh::nodal_weights(where.mesh, block, where.kind)
                                          : mesh::basis_integrals(where.mesh, block, where.kind);
     const int n = mesh::node_count(block.shape);
@@ -75,13 +76,12 @@ void BodySources::add_nodal_shares(const Where& where, int body, Volume& volume)
       for (int a = 0; a < n; ++a) {
         const Index node = block.element(e)[a];
         if (node < where.mesh.n_owned_nodes)
-          weight[static_cast<std::size_t>(node)] +=
-              weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+          weight[as_size(node)] += weights[as_size(e / k_lanes * n + a)][e % k_lanes];
       }
   }
   for (std::size_t i = 0; i < weight.size(); ++i) {
     if (weight[i] == 0) continue;
-    volume.shares.push_back({static_cast<Index>(i), weight[i]});
+    volume.shares.push_back({as_index(i), weight[i]});
   }
 }
 
@@ -91,11 +91,11 @@ void BodySources::place(const Where& where, int body, Volume& volume) {
   std::vector<CellIntegrals::Cells> cells;
   std::vector<PlacedLoad::Point> points;
   std::vector<PlacedLoad::Share> shares;
-  const bool at_nodes = where.at_nodes[static_cast<std::size_t>(body)] != 0;
+  const bool at_nodes = where.at_nodes[as_size(body)] != 0;
   if (at_nodes)
     for (const Volume::Share& share : volume.shares) {
-      shares.push_back({share.node, static_cast<Index>(points.size()), share.weight});
-      points.push_back({where.mesh.x[static_cast<std::size_t>(share.node)], share.node, -1, share.weight});
+      shares.push_back({share.node, as_index(points.size()), share.weight});
+      points.push_back({where.mesh.x[as_size(share.node)], share.node, -1, share.weight});
     }
   for (const mesh::ElementBlock& block : where.mesh.blocks) {
     if (block.body != body || !where.active.body(body)) continue;
@@ -106,13 +106,12 @@ void BodySources::place(const Where& where, int body, Volume& volume) {
     for (Index e = 0; e < block.size(); ++e)
       for (int q = 0; q < g.n_points; ++q) {
         const double weight = g.weight_at(e / k_lanes, q)[e % k_lanes];
-        const auto number = static_cast<Index>(points.size());
+        const auto number = as_index(points.size());
         PlacedLoad::Point& point = points.emplace_back();
         for (int a = 0; a < g.n_nodes; ++a) {
           const Index node = block.element(e)[a];
-          const double n = g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
-          for (std::size_t i = 0; i < 3; ++i)
-            point.x[i] += n * where.mesh.x[static_cast<std::size_t>(node)][i];
+          const double n = g.values[as_size(q * g.n_nodes + a)];
+          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * where.mesh.x[as_size(node)][i];
           if (node < where.mesh.n_owned_nodes) shares.push_back({node, number, n * weight});
         }
       }
@@ -130,15 +129,14 @@ void BodySources::Volume::set_window(const LoadWindow& window) {
   }
   const LoadValues mean = mean_load(window, {LoadLaw::Kind::power, {factor, power}});
   std::fill(heat.begin(), heat.end(), 0.0);
-  for (const Share& share : shares)
-    heat[static_cast<std::size_t>(share.node)] += (mean[0] - mean[1]) * share.weight;
+  for (const Share& share : shares) heat[as_size(share.node)] += (mean[0] - mean[1]) * share.weight;
 }
 
 void BodySources::Volume::burn(const BurningState& state, double begin, double end) {
   std::fill(heat.begin(), heat.end(), 0.0);
   if (state.lit.empty()) return;
   for (const Share& share : shares) {
-    const auto node = static_cast<std::size_t>(share.node);
+    const auto node = as_size(share.node);
     const double after = burnt_share(state.lit[node], burning->duration, end),
                  before = burnt_share(state.lit[node], burning->duration, state.released[node]);
     heat[node] += burning->heat * (after - before) / (end - begin) * share.weight;

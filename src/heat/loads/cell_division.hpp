@@ -5,6 +5,7 @@
 
 #include "heat/loads/cell_shapes.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/common_failure.hpp"
 
@@ -59,7 +60,7 @@ class CellIntegrals::Division {
     for (std::size_t k = 0; k < k_values; ++k) {
       double total = 0;
       for (std::size_t c = 0; c < result_.of_cells.size(); ++c)
-        if (cells_.counted(static_cast<Index>(c))) total += result_.of_cells[c][k];
+        if (cells_.counted(as_index(c))) total += result_.of_cells[c][k];
       result_.total[k] = parallel::global_sum(total);
       const double left = parallel::global_sum(left_[k]);
       if (scale_[k] > 0) result_.uncertain = std::max(result_.uncertain, left / scale_[k]);
@@ -80,10 +81,10 @@ class CellIntegrals::Division {
     const Cells& block = cells_.blocks_[cells_.block_of(cell)];
     const int n = mesh::node_count(block.shape);
     const Index* nodes = cells_.nodes_of(cell);
-    const LoadValues& centre = result_.of_points[cells_.used_nodes_.size() + at(cell)];
+    const LoadValues& centre = result_.of_points[cells_.used_nodes_.size() + as_size(cell)];
     LoadValues low = centre, high = centre, mean{};
     for (int a = 0; a < n; ++a) {
-      const LoadValues& v = result_.of_points[at(cells_.point_of_node(nodes[a]))];
+      const LoadValues& v = result_.of_points[as_size(cells_.point_of_node(nodes[a]))];
       for (std::size_t k = 0; k < k_values; ++k) {
         low[k] = std::min(low[k], v[k]);
         high[k] = std::max(high[k], v[k]);
@@ -99,8 +100,8 @@ class CellIntegrals::Division {
   void see_whole_cells() {
     LoadValues seen{};
     for (std::size_t c = 0; c < cells_.measure_.size(); ++c) {
-      if (!cells_.counted(static_cast<Index>(c))) continue;
-      const LoadValues mean = of_whole(static_cast<Index>(c)).first;
+      if (!cells_.counted(as_index(c))) continue;
+      const LoadValues mean = of_whole(as_index(c)).first;
       for (std::size_t k = 0; k < k_values; ++k) seen[k] += cells_.measure_[c] * mean[k];
     }
     sum(seen);
@@ -109,7 +110,7 @@ class CellIntegrals::Division {
   std::vector<Part> begin() {
     std::vector<Part> open;
     for (std::size_t c = 0; c < cells_.measure_.size(); ++c) {
-      const auto cell = static_cast<Index>(c);
+      const auto cell = as_index(c);
       const LoadValues spread = of_whole(cell).second;
       Part part;
       part.cell = cell;
@@ -132,17 +133,18 @@ class CellIntegrals::Division {
   void add_whole(Index cell) {
     const std::size_t b = cells_.block_of(cell);
     const Cells& block = cells_.blocks_[b];
-    const auto n = at(mesh::node_count(block.shape));
+    const auto n = as_size(mesh::node_count(block.shape));
     const Index* nodes = cells_.nodes_of(cell);
-    const double* shares = cells_.shares_.data() + cells_.first_share_[b] + at(cell - cells_.first_[b]) * n;
+    const double* shares =
+        cells_.shares_.data() + cells_.first_share_[b] + as_size(cell - cells_.first_[b]) * n;
     for (std::size_t a = 0; a < n; ++a) {
-      const LoadValues& v = result_.of_points[at(cells_.point_of_node(nodes[a]))];
+      const LoadValues& v = result_.of_points[as_size(cells_.point_of_node(nodes[a]))];
       add(cell, nodes[a], shares[a], v);
       if (with_samples_ && cells_.counted(cell) && matters(shares[a], v))
-        result_.samples.push_back({cells_.mesh_.x[at(nodes[a])], {}, shares[a], v});
+        result_.samples.push_back({cells_.mesh_.x[as_size(nodes[a])], {}, shares[a], v});
     }
     if (cells_.counted(cell))
-      for (std::size_t k = 0; k < k_values; ++k) accepted_[k] += std::abs(result_.of_cells[at(cell)][k]);
+      for (std::size_t k = 0; k < k_values; ++k) accepted_[k] += std::abs(result_.of_cells[as_size(cell)][k]);
   }
   /// Whether a point is part of the distribution: the tails of a normal one reach everywhere.
   bool matters(double weight, const LoadValues& v) const {
@@ -153,18 +155,18 @@ class CellIntegrals::Division {
   }
   void add(Index cell, Index node, double weight, const LoadValues& v) {
     for (std::size_t k = 0; k < k_values; ++k) {
-      result_.of_nodes[at(node)][k] += weight * v[k];
-      result_.of_cells[at(cell)][k] += weight * v[k];
+      result_.of_nodes[as_size(node)][k] += weight * v[k];
+      result_.of_cells[as_size(cell)][k] += weight * v[k];
     }
   }
   void accept(const Part& part, const LoadValues& error) {
     const Cells& block = cells_.blocks_[cells_.block_of(part.cell)];
-    const auto n = at(mesh::node_count(block.shape));
+    const auto n = as_size(mesh::node_count(block.shape));
     const Index* nodes = cells_.nodes_of(part.cell);
     std::array<double, k_most_nodes> w{};
     const bool counts = cells_.counted(part.cell);
     for (int q = 0; q < part.n_samples; ++q) {
-      const Sample& s = part.samples[at(q)];
+      const Sample& s = part.samples[as_size(q)];
       shares_at(block.shape, s.xi, std::span(w).first(n));
       for (std::size_t a = 0; a < n; ++a) add(part.cell, nodes[a], w[a] * s.weight, s.value);
       if (with_samples_ && counts && matters(s.weight, s.value)) result_.samples.push_back(s);
@@ -191,12 +193,12 @@ class CellIntegrals::Division {
       all.push_back(map(cells_.mesh_, cells_.kind_, shape, cells_.nodes_of(part.cell), xi).first);
     };
     if (!is_box(shape)) {
-      for (int i = 0; i <= dim; ++i) place(part.corners[at(i)]);
+      for (int i = 0; i <= dim; ++i) place(part.corners[as_size(i)]);
       return all;
     }
     for (int i = 0; i < 1 << dim; ++i) {
       Point xi{};
-      for (int j = 0; j < dim; ++j) xi[at(j)] = part.corners[(i >> j) & 1][at(j)];
+      for (int j = 0; j < dim; ++j) xi[as_size(j)] = part.corners[(i >> j) & 1][as_size(j)];
       place(xi);
     }
     return all;
@@ -236,7 +238,7 @@ class CellIntegrals::Division {
     };
     if (part.level == 0) {
       const int n = mesh::node_count(cells_.blocks_[cells_.block_of(part.cell)].shape);
-      for (int a = 0; a < n; ++a) see(cells_.mesh_.x[at(cells_.nodes_of(part.cell)[a])]);
+      for (int a = 0; a < n; ++a) see(cells_.mesh_.x[as_size(cells_.nodes_of(part.cell)[a])]);
       if (apart(spots_low_, spots_high_)) return false;
     }
     // The box of its corners is compared with each place.
@@ -255,7 +257,7 @@ class CellIntegrals::Division {
     const Shape shape = cells_.blocks_[cells_.block_of(part.cell)].shape;
     const int dim = mesh::dimension(shape);
     const auto coordinate = [&](const Point& xi) {
-      return map(cells_.mesh_, cells_.kind_, shape, cells_.nodes_of(part.cell), xi).first[at(axis)];
+      return map(cells_.mesh_, cells_.kind_, shape, cells_.nodes_of(part.cell), xi).first[as_size(axis)];
     };
     std::vector<Part> halves(2, part);
     for (Part& half : halves) half.share *= 0.5;
@@ -263,7 +265,7 @@ class CellIntegrals::Division {
     if (is_box(shape)) {
       std::size_t across = 0;
       const Point middle = half_way(part.corners[0], part.corners[1]);
-      for (std::size_t j = 0; j < at(dim); ++j) {
+      for (std::size_t j = 0; j < as_size(dim); ++j) {
         Point a = middle, b = middle;
         a[j] = part.corners[0][j], b[j] = part.corners[1][j];
         if (const double way = std::abs(coordinate(a) - coordinate(b)); way > longest)
@@ -273,8 +275,8 @@ class CellIntegrals::Division {
       return halves;
     }
     std::pair<std::size_t, std::size_t> edge{0, 1};
-    for (std::size_t i = 0; i <= at(dim); ++i)
-      for (std::size_t j = i + 1; j <= at(dim); ++j)
+    for (std::size_t i = 0; i <= as_size(dim); ++i)
+      for (std::size_t j = i + 1; j <= as_size(dim); ++j)
         if (const double way = std::abs(coordinate(part.corners[i]) - coordinate(part.corners[j]));
             way > longest)
           longest = way, edge = {i, j};
@@ -294,7 +296,8 @@ class CellIntegrals::Division {
     if (is_box(shape)) {
       const Point middle = half_way(c[0], c[1]);
       for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t j = 0; j < at(dim); ++j) all[i].corners[(i >> j & 1) != 0 ? 0 : 1][j] = middle[j];
+        for (std::size_t j = 0; j < as_size(dim); ++j)
+          all[i].corners[(i >> j & 1) != 0 ? 0 : 1][j] = middle[j];
       return all;
     }
     const auto m = [&](std::size_t i, std::size_t j) { return half_way(c[i], c[j]); };
@@ -329,13 +332,13 @@ class CellIntegrals::Division {
         Sample& s = part.samples[q];
         const Point& eta = rule[q].xi;
         s.xi = {};
-        for (std::size_t j = 0; j < at(dim); ++j) {
+        for (std::size_t j = 0; j < as_size(dim); ++j) {
           if (is_box(shape)) {
             s.xi[j] = 0.5 * ((1 - eta[j]) * part.corners[0][j] + (1 + eta[j]) * part.corners[1][j]);
             continue;
           }
           s.xi[j] = part.corners[0][j];
-          for (std::size_t i = 0; i < at(dim); ++i)
+          for (std::size_t i = 0; i < as_size(dim); ++i)
             s.xi[j] += eta[i] * (part.corners[i + 1][j] - part.corners[0][j]);
         }
         const auto [position, size] =
@@ -351,9 +354,9 @@ class CellIntegrals::Division {
     for (Part& part : parts) {
       part.integral = {};
       part.measure = 0;
-      LoadValues& largest = largest_[at(part.cell)];
+      LoadValues& largest = largest_[as_size(part.cell)];
       for (int q = 0; q < part.n_samples; ++q, ++i) {
-        Sample& s = part.samples[at(q)];
+        Sample& s = part.samples[as_size(q)];
         s.value = values[i];
         part.measure += s.weight;
         for (std::size_t k = 0; k < k_values; ++k) {
@@ -409,7 +412,7 @@ class CellIntegrals::Division {
           if (part.breaks)
             for (std::size_t k = 0; k < k_values; ++k) {
               // Its points may all lie on the side where there is nothing.
-              of_part[k] = std::max(of_part[k], 0.25 * part.measure * largest_[at(part.cell)][k]);
+              of_part[k] = std::max(of_part[k], 0.25 * part.measure * largest_[as_size(part.cell)][k]);
               close = close && of_part[k] <= k_part * scale_[k];
             }
           close = close && !more;

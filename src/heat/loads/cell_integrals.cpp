@@ -4,6 +4,7 @@
 
 #include "heat/loads/cell_division.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/common_failure.hpp"
 
@@ -18,8 +19,8 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
   first_.push_back(0);
   std::array<double, k_most_nodes> w{};
   for (const Cells& block : blocks_) {
-    const auto n = at(mesh::node_count(block.shape));
-    const auto n_cells = static_cast<Index>(block.nodes.size() / n);
+    const auto n = as_size(mesh::node_count(block.shape));
+    const auto n_cells = as_index(block.nodes.size() / n);
     // The rule is exact for the product of shape functions and the Jacobian of a straight cell.
     const mesh::Rule rule = mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1);
     const Point middle = is_box(block.shape)                 ? Point{}
@@ -27,7 +28,7 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
                                                              : Point{0.25, 0.25, 0.25};
     first_share_.push_back(shares_.size());
     for (Index e = 0; e < n_cells; ++e) {
-      const Index* nodes = block.nodes.data() + at(e) * n;
+      const Index* nodes = block.nodes.data() + as_size(e) * n;
       const std::size_t first = shares_.size();
       shares_.resize(first + n);
       double measure = 0;
@@ -39,12 +40,12 @@ CellIntegrals::CellIntegrals(const mesh::Mesh& mesh, AnalysisKind kind, std::vec
       }
       // Each node that a cell uses becomes a point of evaluation once, whichever cell finds it first.
       for (std::size_t a = 0; a < n; ++a) {
-        node_measure_[at(nodes[a])] += shares_[first + a];
-        Index& point = point_of_node_[at(nodes[a])];
+        node_measure_[as_size(nodes[a])] += shares_[first + a];
+        Index& point = point_of_node_[as_size(nodes[a])];
         if (point >= 0) continue;
-        point = static_cast<Index>(used_nodes_.size());
+        point = as_index(used_nodes_.size());
         used_nodes_.push_back(nodes[a]);
-        points_.push_back(mesh.x[at(nodes[a])]);
+        points_.push_back(mesh.x[as_size(nodes[a])]);
       }
       measure_.push_back(measure);
       centroids.push_back(map(mesh, kind, block.shape, nodes, middle).first);
@@ -63,7 +64,7 @@ std::size_t CellIntegrals::block_of(Index cell) const {
 
 const Index* CellIntegrals::nodes_of(Index cell) const {
   const std::size_t b = block_of(cell);
-  return blocks_[b].nodes.data() + at(cell - first_[b]) * at(mesh::node_count(blocks_[b].shape));
+  return blocks_[b].nodes.data() + as_size(cell - first_[b]) * as_size(mesh::node_count(blocks_[b].shape));
 }
 
 bool CellIntegrals::counted(Index cell) const {

@@ -18,6 +18,7 @@
 
 #include "heat/loads/load_mean.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -60,11 +61,11 @@ class CellIntegrals {
   /// The nodes of the cells, then their centroids.
   std::span<const Position> points() const { return points_; }
   /// The number of a node's point; −1: it belongs to no cell.
-  Index point_of_node(Index node) const { return point_of_node_[static_cast<std::size_t>(node)]; }
+  Index point_of_node(Index node) const { return point_of_node_[as_size(node)]; }
   /// ∫ W_a, [local node]; right for owned nodes. W_a are the basis functions of linear shapes, of quadratic
   /// ones N_a²/Σ N_b²: not negative, and their sum is one.
   std::span<const double> of_nodes() const { return node_measure_; }
-  double of_cell(Index cell) const { return measure_[static_cast<std::size_t>(cell)]; }
+  double of_cell(Index cell) const { return measure_[as_size(cell)]; }
   /// Collective. Throws, on every process, what the function throws.
   Result integrate(const Evaluate& evaluate, const Breaks& breaks, bool with_samples = false) const;
   std::size_t bytes() const;

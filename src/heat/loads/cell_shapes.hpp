@@ -10,6 +10,7 @@
 
 #include "heat/loads/cell_integrals.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -18,10 +19,6 @@ using mesh::Shape;
 
 constexpr int k_most_nodes = 20;
 constexpr std::size_t k_values = std::tuple_size_v<LoadValues>;
-
-inline std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 inline bool is_box(Shape shape) {
   return shape != Shape::tri3 && shape != Shape::tri6 && shape != Shape::tet4 && shape != Shape::tet10;
@@ -39,7 +36,7 @@ inline void shares_at(Shape shape, const Point& xi, std::span<double> w) {
 /// Where a reference point lies, and the volume or area there per unit of the reference shape.
 inline std::pair<Position, double> map(const mesh::Mesh& mesh, AnalysisKind kind, Shape shape,
                                        const Index* nodes, const Point& xi) {
-  const auto n = at(mesh::node_count(shape)), dim = at(mesh::dimension(shape));
+  const auto n = as_size(mesh::node_count(shape)), dim = as_size(mesh::dimension(shape));
   std::array<double, k_most_nodes> values{};
   std::array<double, 3 * k_most_nodes> gradients{};
   mesh::basis_values(shape, xi, std::span(values).first(n));
@@ -48,7 +45,7 @@ inline std::pair<Position, double> map(const mesh::Mesh& mesh, AnalysisKind kind
   std::array<Point, 3> tangent{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
   for (std::size_t j = 0; j < dim; ++j) tangent[j] = {};
   for (std::size_t a = 0; a < n; ++a) {
-    const Point& node = mesh.x[at(nodes[a])];
+    const Point& node = mesh.x[as_size(nodes[a])];
     for (std::size_t i = 0; i < 3; ++i) {
       x[i] += values[a] * node[i];
       for (std::size_t j = 0; j < dim; ++j) tangent[j][i] += gradients[a * dim + j] * node[i];

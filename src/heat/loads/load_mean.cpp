@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 namespace {
@@ -126,7 +128,7 @@ std::vector<TimePoint> time_points(const LoadWindow& window, std::span<const Pla
   std::vector<TimePoint> points;
   // Gauss points between the breaks of the functions in time, weighted by the length of the pieces.
   for (int p = 0; p < window.n_parts; ++p) {
-    const LoadWindow::Part& part = window.parts[static_cast<std::size_t>(p)];
+    const LoadWindow::Part& part = window.parts[as_size(p)];
     const std::vector<double> ends = pieces(part, functions, parts);
     for (std::size_t i = 1; i < ends.size(); ++i)
       for (const TimePoint& point : rule)
@@ -157,7 +159,7 @@ LoadValues mean_load(const LoadWindow& window, const LoadLaw& law) {
   constexpr int k_parts = 8;
   Bisection bisection(law);
   for (int p = 0; p < window.n_parts; ++p) {
-    const LoadWindow::Part& part = window.parts[static_cast<std::size_t>(p)];
+    const LoadWindow::Part& part = window.parts[as_size(p)];
     const std::vector<double> ends = pieces(part, functions, k_parts);
     std::vector<LoadValues> whole;
     for (std::size_t i = 1; i < ends.size(); ++i) whole.push_back(bisection.mean(ends[i - 1], ends[i]));

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/common_failure.hpp"
 #include "system/log.hpp"
@@ -21,10 +22,6 @@ constexpr double k_overlap = 0.6;
 /// its own length: one standard deviation of a normal distribution.
 constexpr double k_apart = 0.2;
 constexpr double k_uncertain = 0.01;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// α: the share of the values at points.
 double share_of_points(double by_points, double integral) {
@@ -77,7 +74,7 @@ PlacedLoad::PlacedLoad(const mesh::Mesh& mesh, AnalysisKind kind, std::string na
   // Points that lie on no node are evaluated one by one.
   for (const Point& p : samples_.points)
     if (p.node < 0) samples_.x.push_back(p.x);
-  heat_.resize(at(mesh.n_owned_nodes));
+  heat_.resize(as_size(mesh.n_owned_nodes));
   samples_.kept.resize(law_.functions.size());
   // The extent of the load's cells is known to every process.
   for (std::size_t i = 0; i < 3; ++i) {
@@ -166,7 +163,7 @@ void PlacedLoad::set(const LoadWindow& window) {
     constexpr int k_points = 2, k_most_parts = 64;
     int parts = 1;
     if (moves() && window.n_parts > 0) {
-      const double begin = window.parts[0].begin, end = window.parts[at(window.n_parts - 1)].end;
+      const double begin = window.parts[0].begin, end = window.parts[as_size(window.n_parts - 1)].end;
       const std::optional<Crossing> known = crossing(begin, end);
       const double apart = known ? k_apart * known->time : lasting(begin, end);
       parts = static_cast<int>(std::min<double>(k_most_parts, std::ceil((end - begin) / apart)));
@@ -181,7 +178,7 @@ void PlacedLoad::set(const LoadWindow& window) {
       run_collectively([&] { average(law_, times, samples_.x, false, apart); });
     for (std::size_t p = 0, i = 0; p < samples_.points.size(); ++p)
       at_points[p] = samples_.points[p].node >= 0
-                         ? integrals.of_points[at(cells_.point_of_node(samples_.points[p].node))]
+                         ? integrals.of_points[as_size(cells_.point_of_node(samples_.points[p].node))]
                          : apart[i++];
     if (law_.kind == LoadLaw::Kind::power)
       set_power(integrals, at_points);
@@ -205,15 +202,15 @@ void PlacedLoad::set_power(const CellIntegrals::Result& integrals, std::span<con
     const double sign = k == 0 ? 1 : -1;
     // The total by points against the integral over cells tells how far points can be trusted.
     double sum = 0;
-    for (const Share& share : samples_.shares) sum += share.weight * at_points[at(share.point)][k];
+    for (const Share& share : samples_.shares) sum += share.weight * at_points[as_size(share.point)][k];
     const double by_points = parallel::global_sum(sum), integral = integrals.total[k];
     const double alpha = share_of_points(by_points, integral);
     least = std::min(least, alpha);
     // Values at points, scaled so that their total is the integral.
     if (alpha > 0 && by_points != 0)
       for (const Share& share : samples_.shares)
-        heat_[at(share.node)] +=
-            sign * alpha * (integral / by_points) * share.weight * at_points[at(share.point)][k];
+        heat_[as_size(share.node)] +=
+            sign * alpha * (integral / by_points) * share.weight * at_points[as_size(share.point)][k];
     // What is left goes by the integrals of the nodes.
     if (alpha < 1)
       for (std::size_t i = 0; i < heat_.size(); ++i)
@@ -248,7 +245,7 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
   std::vector<double> around;  // means around nodes, ghosts too
   if (alpha < 1) {
     around.resize(2 * mesh_.x.size());
-    for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i)
+    for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i)
       for (std::size_t k = 0; k < 2; ++k)
         if (cells_.of_nodes()[i] > 0) around[2 * i + k] = integrals.of_nodes[i][k] / cells_.of_nodes()[i];
     parallel::GhostExchange(mesh_).update(around, 2);
@@ -259,9 +256,9 @@ void PlacedLoad::set_exchange(const CellIntegrals::Result& integrals, std::span<
       means_[p][k] = alpha * scale * at_points[p][k];
       if (alpha == 1) continue;
       const Point& point = samples_.points[p];
-      means_[p][k] += (1 - alpha) *
-                      (point.node >= 0 ? around[2 * at(point.node) + k]
-                                       : integrals.of_cells[at(point.cell)][k] / cells_.of_cell(point.cell));
+      means_[p][k] += (1 - alpha) * (point.node >= 0 ? around[2 * as_size(point.node) + k]
+                                                     : integrals.of_cells[as_size(point.cell)][k] /
+                                                           cells_.of_cell(point.cell));
     }
   check(integrals, alpha);
 }

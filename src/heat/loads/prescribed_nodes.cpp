@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "heat/loads/temperature_range.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -13,19 +14,19 @@ PrescribedNodes::PrescribedNodes(const mesh::Mesh& mesh, const linear::ActiveSet
   std::vector<int> holder(mesh.x.size(), -1);  // the later condition in the list holds
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index node : named_group(mesh.node_sets, conditions[i].node_set, "group"))
-      holder[static_cast<std::size_t>(node)] = static_cast<int>(i);
+      holder[as_size(node)] = static_cast<int>(i);
   for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}, {}, {}});
   fixed_.assign(mesh.x.size(), 0);
   for (std::size_t node = 0; node < holder.size(); ++node) {
     // Nodes of absent bodies have no equation, and are fixed.
-    if (!active.node(static_cast<Index>(node))) {
+    if (!active.node(as_index(node))) {
       fixed_[node] = 1;
       continue;
     }
     if (holder[node] < 0) continue;
     fixed_[node] = 1;
-    Prescribed& p = prescribed_[static_cast<std::size_t>(holder[node])];
-    p.nodes.push_back(static_cast<Index>(node));
+    Prescribed& p = prescribed_[as_size(holder[node])];
+    p.nodes.push_back(as_index(node));
     if (!p.value.uniform()) p.x.push_back(mesh.x[node]);
   }
   for (Prescribed& p : prescribed_) p.now.resize(p.nodes.size());
@@ -41,8 +42,7 @@ void PrescribedNodes::set_time(double time) {
 
 void PrescribedNodes::prescribe(std::span<double> temperature) const {
   for (const Prescribed& p : prescribed_)
-    for (std::size_t k = 0; k < p.nodes.size(); ++k)
-      temperature[static_cast<std::size_t>(p.nodes[k])] = p.now[k];
+    for (std::size_t k = 0; k < p.nodes.size(); ++k) temperature[as_size(p.nodes[k])] = p.now[k];
 }
 
 TemperatureRange PrescribedNodes::range() const {
@@ -57,7 +57,7 @@ std::vector<NamedPower> PrescribedNodes::reaction_powers(std::span<const double>
   for (const Prescribed& p : prescribed_) {
     double sum = 0;
     for (Index node : p.nodes)
-      if (node < n_owned_) sum += reactions[static_cast<std::size_t>(node)];
+      if (node < n_owned_) sum += reactions[as_size(node)];
     all.push_back({p.name, parallel::global_sum(sum)});
   }
   return all;

@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::heat {
@@ -17,8 +18,8 @@ namespace {
 double integral(const mesh::FaceGeometry& g, Index face, std::initializer_list<int> nodes) {
   double sum = 0;
   for (int q = 0; q < g.n_points; ++q) {
-    double part = g.weight[static_cast<std::size_t>(face * g.n_points + q)];
-    for (const int a : nodes) part *= g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+    double part = g.weight[as_size(face * g.n_points + q)];
+    for (const int a : nodes) part *= g.values[as_size(q * g.n_nodes + a)];
     sum += part;
   }
   return sum;
@@ -30,7 +31,7 @@ double SurfaceHeat::Patch::temperature(std::span<const double> t, Index face, in
   const Index* of_face = nodes.data() + static_cast<std::ptrdiff_t>(face) * n_nodes;
   const double* n = values.data() + static_cast<std::ptrdiff_t>(point) * n_nodes;
   double sum = 0;
-  for (int a = 0; a < n_nodes; ++a) sum += n[a] * t[static_cast<std::size_t>(of_face[a])];
+  for (int a = 0; a < n_nodes; ++a) sum += n[a] * t[as_size(of_face[a])];
   return sum;
 }
 
@@ -38,7 +39,7 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
                          std::string name, SurfaceLaw law, bool closed)
     : name_(std::move(name)), law_(std::move(law)) {
   // `lumped` are the weights of the closed rule, `positive` those of supply.
-  std::vector<double> lumped(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);  // ∫ N_i dA
+  std::vector<double> lumped(as_size(mesh.n_owned_nodes), 0.0);  // ∫ N_i dA
   std::vector<double> positive(lumped.size(), 0.0);
   for (const mesh::ElementBlock& faces : surface.faces) {
     const int order = mesh::order(faces.shape);
@@ -56,8 +57,8 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
         for (int a = 0; a < g.n_nodes; ++a) {
           const Index node = faces.element(face)[a];
           if (node >= mesh.n_owned_nodes) continue;
-          lumped[static_cast<std::size_t>(node)] += integral(g, face, {a});
-          positive[static_cast<std::size_t>(node)] += area / squares * integral(g, face, {a, a});
+          lumped[as_size(node)] += integral(g, face, {a});
+          positive[as_size(node)] += area / squares * integral(g, face, {a, a});
         }
       }
       if (order == 2 && mesh.dimension == 3 && law_.exchanges()) add_corners(faces, g);
@@ -76,7 +77,7 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   // Only nodes with a weight are kept.
   for (std::size_t i = 0; i < positive.size(); ++i) {
     if (positive[i] == 0.0) continue;
-    supplied_nodes_.push_back(static_cast<Index>(i));
+    supplied_nodes_.push_back(as_index(i));
     supply_weight_.push_back(positive[i]);
   }
   // The lumped nodes form a patch of one-node faces: so the rest of the class has one way for both
@@ -85,10 +86,10 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   nodes.values = {1.0};
   for (std::size_t i = 0; i < lumped.size(); ++i) {
     if (lumped[i] == 0.0) continue;
-    nodes.nodes.push_back(static_cast<Index>(i));
+    nodes.nodes.push_back(as_index(i));
     nodes.weight.push_back(lumped[i]);
   }
-  nodes.n_faces = nodes.n_counted = static_cast<Index>(nodes.nodes.size());
+  nodes.n_faces = nodes.n_counted = as_index(nodes.nodes.size());
   patches_.push_back(std::move(nodes));
   if (law_.placed()) place_points(mesh, kind, surface, closed);
 }
@@ -104,19 +105,19 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
     patch.first_point = points.size();
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
-        const auto number = static_cast<Index>(points.size());
+        const auto number = as_index(points.size());
         const double weight = patch.weight[patch.number(face, q)];
         PlacedLoad::Point& point = points.emplace_back();
         if (closed)
-          point.node = patch.nodes[static_cast<std::size_t>(face)];
+          point.node = patch.nodes[as_size(face)];
         else
           point.cell = first_cell + face;
         if (face < patch.n_counted) point.weight = weight;
         // Place and shares of the point by the shape functions of its face.
         for (int a = 0; a < patch.n_nodes; ++a) {
-          const Index node = patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)];
-          const double n = patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
-          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+          const Index node = patch.nodes[as_size(face * patch.n_nodes + a)];
+          const double n = patch.values[as_size(q * patch.n_nodes + a)];
+          for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh.x[as_size(node)][i];
           if (node < mesh.n_owned_nodes && !law_.exchanges()) shares.push_back({node, number, n * weight});
         }
       }
@@ -125,10 +126,10 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
   // The nodes at which the law is taken in addition to the points of integration.
   point_of_node_.assign(mesh.x.size(), 0);
   const auto place = [&](Index node) {
-    std::size_t& point = point_of_node_[static_cast<std::size_t>(node)];
+    std::size_t& point = point_of_node_[as_size(node)];
     if (point != 0) return;
     point = points.size();
-    points.push_back({mesh.x[static_cast<std::size_t>(node)], node, -1, 0});
+    points.push_back({mesh.x[as_size(node)], node, -1, 0});
   };
   for (const Index node : supplied_nodes_) place(node);
   for (const Pair& p : pairs_) {
@@ -163,13 +164,12 @@ void SurfaceHeat::set_window(const LoadWindow& window) {
 void SurfaceHeat::irradiate(std::span<const double> fourth) {
   const double coefficient = law_.factor();
   std::vector<LoadValues> means;
-  for (const Index node : point_nodes_)
-    means.push_back({coefficient, coefficient * fourth[static_cast<std::size_t>(node)]});
+  for (const Index node : point_nodes_) means.push_back({coefficient, coefficient * fourth[as_size(node)]});
   law_.set_values(means);
 }
 
 SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node) const {
-  const auto i = static_cast<std::size_t>(node);
+  const auto i = as_size(node);
   return law_.at(temperature[i], point_of_node_.empty() ? 0 : point_of_node_[i]);
 }
 
@@ -249,13 +249,13 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
           moved += std::abs(power);
         }
         for (int a = 0; a < patch.n_nodes; ++a)
-          r[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)])] -=
-              power * patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
+          r[as_size(patch.nodes[as_size(face * patch.n_nodes + a)])] -=
+              power * patch.values[as_size(q * patch.n_nodes + a)];
       }
   // Off-diagonal parts of films on quadratic faces exchange heat between two nodes of a face, and change no
   // sum.
   for (const Pair& p : pairs_) {
-    const auto i = static_cast<std::size_t>(p.i), j = static_cast<std::size_t>(p.j);
+    const auto i = as_size(p.i), j = as_size(p.j);
     const double heat = p.weight * (at_node(temperature, p.i).q - at_node(temperature, p.j).q);  // into i
     r[i] -= heat;
     r[j] += heat;
@@ -264,8 +264,8 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
   for (std::size_t i = 0; i < flows_.size(); ++i) {
     if (flows_[i].left == 0) continue;
     const double heat = flows_[i].left * flow(temperature, i);
-    r[static_cast<std::size_t>(flows_[i].from)] -= heat;
-    r[static_cast<std::size_t>(flows_[i].to)] += heat;
+    r[as_size(flows_[i].from)] -= heat;
+    r[as_size(flows_[i].to)] += heat;
   }
   return counted;
 }
@@ -284,7 +284,7 @@ void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<doub
   }
   // Gains and losses are kept apart.
   for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
-    const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
+    const auto i = as_size(supplied_nodes_[s]);
     const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;
     (heat > 0 ? gain : loss)[i] += std::abs(heat);
   }

@@ -16,6 +16,7 @@
 #include "linear/block_matrix.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -146,8 +147,7 @@ class SurfaceHeat {
     std::size_t first_point = 0;  ///< number of its first point among those of the surface
     std::vector<linear::BlockMatrix::Slot> slots;
     std::size_t number(Index face, int point) const {
-      return static_cast<std::size_t>(face) * static_cast<std::size_t>(n_points) +
-             static_cast<std::size_t>(point);
+      return as_size(face) * as_size(n_points) + as_size(point);
     }
     double temperature(std::span<const double> t, Index face, int point) const;
   };

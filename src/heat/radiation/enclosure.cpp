@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
@@ -66,8 +67,7 @@ std::vector<Enclosure::Share> Enclosure::shares_of(const mesh::Surface& surface,
         if (node >= mesh_.n_owned_nodes) continue;
         double weight = 0;
         for (int q = 0; q < g.n_points; ++q)
-          weight += g.weight[static_cast<std::size_t>(f * g.n_points + q)] *
-                    g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+          weight += g.weight[as_size(f * g.n_points + q)] * g.values[as_size(q * g.n_nodes + a)];
         shares.push_back({node, faces.all[numbers[number]].cluster, weight});
       }
   }
@@ -82,7 +82,7 @@ std::vector<double> Enclosure::irradiation(std::span<const double> temperature,
   std::vector<double> sums(2 * n, 0.0);
   for (std::size_t s = 0; s < shares_.size(); ++s)
     for (const Share& share : shares_[s]) {
-      const double t = temperature[static_cast<std::size_t>(share.node)];
+      const double t = temperature[as_size(share.node)];
       const double taken = share.weight * surfaces[s].emissivity(t);
       sums[share.cluster] += taken * t * t * t * t;
       sums[n + share.cluster] += taken;
@@ -93,7 +93,7 @@ std::vector<double> Enclosure::irradiation(std::span<const double> temperature,
   for (std::size_t c = 0; c < n; ++c) {
     emitted[c] = sums[c] / factors_.area[c];
     emissivity[c] = std::clamp(sums[n + c] / factors_.area[c], 0.0, 1.0);
-    from_outside[c] = factors_.open[c] * surfaces[static_cast<std::size_t>(surface_of_[c])].environment;
+    from_outside[c] = factors_.open[c] * surfaces[as_size(surface_of_[c])].environment;
   }
   return solve(emitted, emissivity, from_outside);
 }
@@ -104,7 +104,7 @@ std::vector<std::vector<double>> Enclosure::at_nodes(const std::vector<double>& 
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     std::vector<double> weight(mesh_.x.size(), 0.0);
     for (const Share& share : shares_[s]) {
-      const auto node = static_cast<std::size_t>(share.node);
+      const auto node = as_size(share.node);
       fourth[s][node] += share.weight * on_clusters[share.cluster];
       weight[node] += share.weight;
     }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::heat {
@@ -45,15 +46,15 @@ std::vector<Sent> faces_here(const mesh::Mesh& mesh, AnalysisKind kind, const me
       s[0] = number;
       std::array<double, 4> nodes{-1, -1, -1, -1};
       for (int a = 0; a < n; ++a) {
-        const auto node = static_cast<std::size_t>(faces.element(f)[a]);
-        nodes[static_cast<std::size_t>(a)] = static_cast<double>(mesh.input_node[node]);
-        for (std::size_t i = 0; i < 3; ++i) s[6 + 3 * static_cast<std::size_t>(a) + i] = mesh.x[node][i];
+        const auto node = as_size(faces.element(f)[a]);
+        nodes[as_size(a)] = static_cast<double>(mesh.input_node[node]);
+        for (std::size_t i = 0; i < 3; ++i) s[6 + 3 * as_size(a) + i] = mesh.x[node][i];
       }
       std::sort(nodes.begin(), nodes.end());
       std::copy(nodes.begin(), nodes.end(), s.begin() + 1);
       s[5] = n;
       for (int q = 0; q < g.n_points; ++q) {
-        const auto at = static_cast<std::size_t>(f * g.n_points + q);
+        const auto at = as_size(f * g.n_points + q);
         for (std::size_t i = 0; i < 3; ++i) s[18 + i] += g.weight[at] * g.normal[at][i];
         s[21] += g.weight[at];
       }
@@ -68,8 +69,8 @@ RadiatingFace face_of(const double* s) {
   face.n_corners = static_cast<int>(s[5]);
   for (int a = 0; a < face.n_corners; ++a)
     for (std::size_t i = 0; i < 3; ++i) {
-      const double x = s[6 + 3 * static_cast<std::size_t>(a) + i];
-      face.corners[static_cast<std::size_t>(a)][i] = x;
+      const double x = s[6 + 3 * as_size(a) + i];
+      face.corners[as_size(a)][i] = x;
       face.middle[i] += x / face.n_corners;
     }
   const double length = std::hypot(s[18], s[19], s[20]);

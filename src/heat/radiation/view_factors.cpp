@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "mesh/ray_search.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
@@ -76,8 +77,8 @@ class Scene {
       area_[face.cluster] += face.area;
       for (int a = 0; a < face.n_corners; ++a)
         for (std::size_t i = 0; i < 3; ++i) {
-          low[i] = std::min(low[i], face.corners[static_cast<std::size_t>(a)][i]);
-          high[i] = std::max(high[i], face.corners[static_cast<std::size_t>(a)][i]);
+          low[i] = std::min(low[i], face.corners[as_size(a)][i]);
+          high[i] = std::max(high[i], face.corners[as_size(a)][i]);
         }
     }
     extent_ = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
@@ -241,8 +242,8 @@ std::vector<Met> cast_rays(const Scene& scene, std::size_t n_clusters, std::size
   std::vector<double> mine;
   std::vector<double> counts(columns);
   std::vector<std::size_t> touched;
-  const auto stride = static_cast<std::size_t>(processes::count());
-  for (auto c = static_cast<std::size_t>(processes::rank()); c < n_clusters; c += stride) {
+  const auto stride = as_size(processes::count());
+  for (auto c = as_size(processes::rank()); c < n_clusters; c += stride) {
     const std::array<double, 4> shift = shift_of(c);
     touched.clear();
     for (std::size_t k = 0; k < rays; ++k) {
@@ -279,8 +280,8 @@ void set_rows(std::vector<std::pair<std::uint64_t, double>>& halves, std::size_t
       f.entries.back().exchange += halves[i].second;
       continue;
     }
-    f.entries.push_back({static_cast<std::size_t>(halves[i].first % n), halves[i].second});
-    ++f.start[static_cast<std::size_t>(halves[i].first / n) + 1];
+    f.entries.push_back({as_size(halves[i].first % n), halves[i].second});
+    ++f.start[as_size(halves[i].first / n) + 1];
   }
   f.entries.shrink_to_fit();
   for (std::size_t c = 0; c < n; ++c) f.start[c + 1] += f.start[c];

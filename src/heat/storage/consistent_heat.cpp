@@ -6,14 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 ConsistentHeat::ConsistentHeat(const mesh::Mesh& mesh,
                                const std::vector<std::unique_ptr<PointStorage>>& points, NodalEnthalpy nodes)
-    : points_(points),
-      nodes_(std::move(nodes)),
-      from_(static_cast<std::size_t>(mesh.n_owned_nodes)),
-      local_(mesh.x.size()) {}
+    : points_(points), nodes_(std::move(nodes)), from_(as_size(mesh.n_owned_nodes)), local_(mesh.x.size()) {}
 
 void ConsistentHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {
   const bool first = stage.carried == 0;
@@ -28,7 +27,7 @@ void ConsistentHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span
   }
   // The heat at nodes from which the stage counts, extrapolated in the same way.
   for (std::size_t i = 0; i < from_.size(); ++i) {
-    const double heat = nodes_.upper(static_cast<Index>(i), before[i]);
+    const double heat = nodes_.upper(as_index(i), before[i]);
     from_[i] = first ? heat : from_[i] + stage.carried * (heat - from_[i]);
   }
 }
@@ -38,28 +37,27 @@ void ConsistentHeat::add_residual(std::span<const double> temperature, std::span
   std::fill(local_.begin(), local_.end(), 0.0);
   for (const auto& block : points_) block->add_residual(temperature, local_);
   for (std::size_t i = 0; i < from_.size(); ++i)
-    r[i] += local_[i] - (nodes_.upper(static_cast<Index>(i), temperature[i]) - from_[i]) / dt_;
+    r[i] += local_[i] - (nodes_.upper(as_index(i), temperature[i]) - from_[i]) / dt_;
 }
 
 void ConsistentHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   if (!on_) return;
   for (const auto& block : points_) block->add_tangent(temperature, matrix);
   for (Index i = 0; i < nodes_.n_nodes(); ++i)
-    *matrix.diagonal_block(i) -= nodes_.capacity(i, temperature[static_cast<std::size_t>(i)]) / dt_;
+    *matrix.diagonal_block(i) -= nodes_.capacity(i, temperature[as_size(i)]) / dt_;
 }
 
 double HeatAtPoints::stored(std::span<const double> temperature) const {
   double sum = 0;
   for (const auto& block : points_) sum += block->stored(temperature);
-  for (std::size_t i = 0; i < from_.size(); ++i)
-    sum -= nodes_.upper(static_cast<Index>(i), temperature[i]) - from_[i];
+  for (std::size_t i = 0; i < from_.size(); ++i) sum -= nodes_.upper(as_index(i), temperature[i]) - from_[i];
   return sum;
 }
 
 double HeatAtPoints::enthalpy(std::span<const double> temperature) const {
   double sum = 0;
   for (const auto& block : points_) sum += block->enthalpy(temperature);
-  for (std::size_t i = 0; i < from_.size(); ++i) sum -= nodes_.upper(static_cast<Index>(i), temperature[i]);
+  for (std::size_t i = 0; i < from_.size(); ++i) sum -= nodes_.upper(as_index(i), temperature[i]);
   return sum;
 }
 
@@ -67,7 +65,7 @@ double HeatAtPoints::latent(std::span<const double> from, std::span<const double
   double sum = 0;
   for (const auto& block : points_) sum += block->latent(from, to);
   for (std::size_t i = 0; i < from_.size(); ++i) {
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     sum -= nodes_.latent(node, nodes_.upper(node, to[i]), to[i]) -
            nodes_.latent(node, nodes_.upper(node, from[i]), from[i]);
   }
@@ -83,7 +81,7 @@ EntropyChange HeatAtPoints::entropy_change(std::span<const double> from, std::sp
     sum.magnitude += part.magnitude;
   }
   for (std::size_t i = 0; i < from_.size(); ++i) {
-    const auto node = static_cast<Index>(i);
+    const auto node = as_index(i);
     const double before = nodes_.entropy(node, nodes_.upper(node, from[i]), from[i]);
     sum.change -= nodes_.entropy(node, nodes_.upper(node, to[i]), to[i]) - before;
     sum.magnitude += std::abs(before);

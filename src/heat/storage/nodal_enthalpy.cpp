@@ -11,6 +11,7 @@
 
 #include "mesh/block_geometry.hpp"
 #include "mesh/block_part.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -42,15 +43,15 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
 
   // Nearly all nodes belong to one body: what others have of a node is kept apart.
   constexpr int k_none = -1;
-  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto n_owned = as_size(mesh.n_owned_nodes);
   std::vector<int> body_of(n_owned, k_none);
   std::vector<double> volume_of(n_owned, 0.0);
   std::map<Index, std::vector<NodeShare>> further;
   // The first body that a node meets has its own two arrays; a second or third one goes to the map.
   const auto volume_in = [&](Index node, int body) -> double& {
-    int& own = body_of[static_cast<std::size_t>(node)];
+    int& own = body_of[as_size(node)];
     if (own == k_none) own = body;
-    if (own == body) return volume_of[static_cast<std::size_t>(node)];
+    if (own == body) return volume_of[as_size(node)];
     std::vector<NodeShare>& list = further[node];
     const auto found = std::ranges::find(list, body, &NodeShare::body);
     return (found != list.end() ? *found : list.emplace_back(NodeShare{body, 0.0})).weight;
@@ -63,8 +64,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
       for (Index e = 0; e < part.size(); ++e)
         for (Index a = 0; a < n; ++a)
           if (const Index node = part.element(e)[a]; node < mesh.n_owned_nodes)
-            volume_in(node, block.body) +=
-                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+            volume_in(node, block.body) += weights[as_size(e / k_lanes * n + a)][e % k_lanes];
     });
   // A mesh of one body needs no list of shares.
   if (n_owned > 0 && further.empty() && body_of.front() != k_none &&
@@ -80,7 +80,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   for (std::size_t i = 0; i < n_owned; ++i) {
     // A node may be without elements until one grows there.
     if (body_of[i] != k_none) shares_.add({body_of[i], volume_of[i]});
-    if (more != further.end() && static_cast<std::size_t>(more->first) == i) {
+    if (more != further.end() && as_size(more->first) == i) {
       for (const NodeShare& share : more->second) shares_.add(share);
       ++more;
     }
@@ -119,16 +119,14 @@ void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
 void NodalEnthalpy::hold(std::span<const char> moves, std::span<const double> held) {
   if (!rooms_) rooms_ = shares_;
   shares_ = *rooms_;
-  shares_.scale([&](Index node, int body) {
-    return moves[static_cast<std::size_t>(body)] != 0 ? held[static_cast<std::size_t>(node)] : 1.0;
-  });
+  shares_.scale([&](Index node, int body) { return moves[as_size(body)] != 0 ? held[as_size(node)] : 1.0; });
 }
 
 double NodalEnthalpy::heat_of(std::span<const char> of, Index node, double heat, double temperature) const {
   const double share = plateau_share(node, heat, temperature);
   double sum = 0;
   for (const NodeShare s : shares_[node]) {
-    if (of[static_cast<std::size_t>(s.body)] == 0) continue;
+    if (of[as_size(s.body)] == 0) continue;
     const double low = curve(s).lower(temperature);
     sum += s.weight * (low + share * (curve(s).upper(temperature) - low));
   }
@@ -139,7 +137,7 @@ void NodalEnthalpy::filter(const NodeShares& from, std::span<const char> kept) {
   NodeShares left;
   for (Index node = 0; node < from.n_nodes(); ++node) {
     for (const NodeShare share : from[node])
-      if (kept[static_cast<std::size_t>(share.body)] != 0) left.add(share);
+      if (kept[as_size(share.body)] != 0) left.add(share);
     left.end_node();
   }
   shares_ = std::move(left);
@@ -220,10 +218,9 @@ NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
     return {t, plateau ? 0.0 : 1.0 / capacity(node, t)};
   }
   const NodeShare share = list.front();
-  const std::vector<double>& starts = starts_[static_cast<std::size_t>(share.body)];
+  const std::vector<double>& starts = starts_[as_size(share.body)];
   const double h = heat / share.weight;
-  const auto above =
-      static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), h) - starts.begin());
+  const auto above = as_size(std::upper_bound(starts.begin(), starts.end(), h) - starts.begin());
   const std::size_t i = above == 0 ? 0 : above - 1;
   const auto& piece = curve(share).pieces()[i];
   const double from = h - piece.h0, width = piece.t1 - piece.t0;
@@ -286,7 +283,7 @@ double NodalEnthalpy::volume(Index node, int body) const {
 
 double NodalEnthalpy::solid_volume(Index node, int body, double heat, double temperature) const {
   const double all = volume(node, body);
-  const material::PhaseChange* change = materials_[static_cast<std::size_t>(body)].solidification();
+  const material::PhaseChange* change = materials_[as_size(body)].solidification();
   if (!change || all == 0) return all;
   const double below = change->fraction.below(temperature), above = change->fraction.above(temperature);
   if (below == above) return all * below;
@@ -296,7 +293,7 @@ double NodalEnthalpy::solid_volume(Index node, int body, double heat, double tem
 double NodalEnthalpy::latent(Index node, double heat, double temperature) const {
   double latent = 0;
   for (const NodeShare s : shares_[node]) {
-    const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    const material::Material& m = materials_[as_size(s.body)];
     // Fractions of all changes, within a jump by the share of it that is done.
     for (const material::PhaseChange& change : m.phase_changes) {
       const double below = change.fraction.below(temperature), above = change.fraction.above(temperature);
@@ -325,7 +322,7 @@ double NodalEnthalpy::latent_capacity(Index node) const {
   double heat = 0;
   for (const NodeShare s : shares_[node]) {
     if (curve(s).jumps().empty()) continue;
-    const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    const material::Material& m = materials_[as_size(s.body)];
     for (const material::PhaseChange& change : m.phase_changes)
       heat += s.weight * m.density * change.latent_heat;
   }

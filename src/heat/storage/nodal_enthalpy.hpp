@@ -14,6 +14,7 @@
 #include "linear/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -54,9 +55,7 @@ class NodalEnthalpy {
     return list.size() == 1 ? std::optional(list.front()) : std::nullopt;
   }
   std::size_t n_bodies() const { return curves_.size(); }
-  const material::EnthalpyCurve& body_curve(int body) const {
-    return curves_[static_cast<std::size_t>(body)];
-  }
+  const material::EnthalpyCurve& body_curve(int body) const { return curves_[as_size(body)]; }
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
@@ -85,22 +84,19 @@ class NodalEnthalpy {
   }
   /// h(Θ) of the material of a body; molten at the temperature of a change [J/m³].
   double body_enthalpy(int body, double temperature) const {
-    return curves_[static_cast<std::size_t>(body)].upper(temperature);
+    return curves_[as_size(body)].upper(temperature);
   }
   /// Volume [m³] that the node holds of a body.
   double volume(Index node, int body) const;
   /// Solid volume [m³] that the node holds of a body.
   double solid_volume(Index node, int body, double heat, double temperature) const;
-  bool can_melt(int body) const {
-    return materials_[static_cast<std::size_t>(body)].solidification() != nullptr;
-  }
-  const material::Material& material(int body) const { return materials_[static_cast<std::size_t>(body)]; }
+  bool can_melt(int body) const { return materials_[as_size(body)].solidification() != nullptr; }
+  const material::Material& material(int body) const { return materials_[as_size(body)]; }
   /// Σ_m w_im of something that the materials around the node have per volume.
   template <class PerVolume>
   double sum(Index node, const PerVolume& per_volume) const {
     double total = 0;
-    for (const NodeShare s : shares_[node])
-      total += s.weight * per_volume(materials_[static_cast<std::size_t>(s.body)]);
+    for (const NodeShare s : shares_[node]) total += s.weight * per_volume(materials_[as_size(s.body)]);
     return total;
   }
   /// ∂H/∂Θ at the node without jumps [J/K].
@@ -108,9 +104,7 @@ class NodalEnthalpy {
   std::size_t bytes() const;
 
  private:
-  const material::EnthalpyCurve& curve(const NodeShare& share) const {
-    return curves_[static_cast<std::size_t>(share.body)];
-  }
+  const material::EnthalpyCurve& curve(const NodeShare& share) const { return curves_[as_size(share.body)]; }
   bool jumps_at(Index node, double temperature) const;
   double mixed_temperature(const NodeShares::List& shares, double heat, bool& plateau) const;
   void filter(const NodeShares& from, std::span<const char> kept);

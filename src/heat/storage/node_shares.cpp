@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 NodeShares::NodeShares(int body, std::vector<double> weights)
@@ -29,7 +31,7 @@ void NodeShares::end_node() {
     start_.resize(n_ended_);  // each node before this one has one share
     std::iota(start_.begin(), start_.end(), 0);
   }
-  start_.push_back(static_cast<Index>(weights_.size()));
+  start_.push_back(as_index(weights_.size()));
 }
 
 std::size_t NodeShares::bytes() const {

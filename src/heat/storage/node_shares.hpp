@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::heat {
@@ -76,11 +77,11 @@ class NodeShares {
   /// Ends the shares of a node: the next one is filled from here on.
   void end_node();
 
-  Index n_nodes() const { return static_cast<Index>(start_.empty() ? weights_.size() : start_.size() - 1); }
+  Index n_nodes() const { return as_index(start_.empty() ? weights_.size() : start_.size() - 1); }
   List operator[](Index node) const {
-    const auto i = static_cast<std::size_t>(node);
-    const std::size_t first = start_.empty() ? i : static_cast<std::size_t>(start_[i]);
-    const std::size_t size = start_.empty() ? 1 : static_cast<std::size_t>(start_[i + 1]) - first;
+    const auto i = as_size(node);
+    const std::size_t first = start_.empty() ? i : as_size(start_[i]);
+    const std::size_t size = start_.empty() ? 1 : as_size(start_[i + 1]) - first;
     const bool same_body = bodies_.size() == 1;
     return {bodies_.data() + (same_body ? 0 : first), same_body, weights_.data() + first, size};
   }
@@ -90,7 +91,7 @@ class NodeShares {
     for (Index node = 0; node < n_nodes(); ++node) {
       const List list = (*this)[node];
       for (std::size_t k = 0; k < list.size(); ++k)
-        weights_[static_cast<std::size_t>(list.weights_ - weights_.data()) + k] *= factor(node, list[k].body);
+        weights_[as_size(list.weights_ - weights_.data()) + k] *= factor(node, list[k].body);
     }
   }
   std::size_t bytes() const;

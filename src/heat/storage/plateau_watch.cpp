@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 PlateauWatch::PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage,
@@ -14,13 +16,12 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
   // The branch of a node says on which side of its plateaus it is. A node in depth is one that has changed
   // its branch together with all its neighbours.
   if (!storage_.has_plateaus()) return false;
-  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  const auto n = as_size(mesh_.n_owned_nodes);
   const bool first = branch_.empty();
   branch_.resize(n);
   std::vector<float> moved(mesh_.x.size());  // a number, as ghosts are exchanged
   for (std::size_t i = 0; i < n; ++i) {
-    const auto branch =
-        static_cast<std::int16_t>(storage_.branch(static_cast<Index>(i), heat[i], temperature[i]));
+    const auto branch = static_cast<std::int16_t>(storage_.branch(as_index(i), heat[i], temperature[i]));
     moved[i] = branch != branch_[i] ? 1.0F : 0.0F;
     branch_[i] = branch;
   }
@@ -33,7 +34,7 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
   const std::span<const Index> columns = matrix_.columns();
   for (std::size_t i = 0; i < n; ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+      const auto j = as_size(columns[as_size(s)]);
       if (moved[i] == 0 || moved[j] == 0) inside[i] = 0;
       if (j < n && moved[i] == 0) inside[j] = 0;
     }

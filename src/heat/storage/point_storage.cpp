@@ -4,6 +4,7 @@
 
 #include "heat/conduction/block_shapes.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -84,8 +85,7 @@ class Storage final : public PointStorage {
   double stored(std::span<const double> temperature) const override {
     Lane total(0.0);
     for_points(temperature, [&](Index batch, int q, std::size_t at, Lane t) {
-      total += (enthalpy(t) - old_[at]) * geometry_.weight_at(batch, q) *
-               geometry_.counted[static_cast<std::size_t>(batch)];
+      total += (enthalpy(t) - old_[at]) * geometry_.weight_at(batch, q) * geometry_.counted[as_size(batch)];
     });
     return sum(total);
   }
@@ -93,8 +93,7 @@ class Storage final : public PointStorage {
   double enthalpy(std::span<const double> temperature) const override {
     Lane total(0.0);
     for_points(temperature, [&](Index batch, int q, std::size_t, Lane t) {
-      total +=
-          enthalpy(t) * geometry_.weight_at(batch, q) * geometry_.counted[static_cast<std::size_t>(batch)];
+      total += enthalpy(t) * geometry_.weight_at(batch, q) * geometry_.counted[as_size(batch)];
     });
     return sum(total);
   }
@@ -107,7 +106,7 @@ class Storage final : public PointStorage {
       const auto add = [&](double sign) {
         return [&, sign](Index batch, int q, std::size_t, Lane t) {
           transformed += Lane(sign) * change.fraction.value(t) * geometry_.weight_at(batch, q) *
-                         geometry_.counted[static_cast<std::size_t>(batch)];
+                         geometry_.counted[as_size(batch)];
         };
       };
       for_points(old_temperature, add(1.0));
@@ -123,8 +122,7 @@ class Storage final : public PointStorage {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal t0 = gather<n_nodes>(geometry_, batch, from), t1 = gather<n_nodes>(geometry_, batch, to);
       for (int q = 0; q < geometry_.n_points; ++q) {
-        const Lane weight =
-            geometry_.weight_at(batch, q) * geometry_.counted[static_cast<std::size_t>(batch)];
+        const Lane weight = geometry_.weight_at(batch, q) * geometry_.counted[as_size(batch)];
         const Lane before = entropy(at_point(t0, values(q))), after = entropy(at_point(t1, values(q)));
         change += weight * (after - before);
         magnitude += weight * abs(before);
@@ -141,9 +139,7 @@ class Storage final : public PointStorage {
   using Nodal = std::array<Lane, n_nodes>;
 
   const double* values(int q) const { return geometry_.values.data() + q * n_nodes; }
-  std::size_t point(Index batch, int q) const {
-    return static_cast<std::size_t>(batch * geometry_.n_points + q);
-  }
+  std::size_t point(Index batch, int q) const { return as_size(batch * geometry_.n_points + q); }
   static Lane at_point(const Nodal& t, const double* n) {
     Lane s(0.0);
     for (std::size_t a = 0; a < n_nodes; ++a) s += Lane(n[a]) * t[a];

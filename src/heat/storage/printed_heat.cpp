@@ -4,10 +4,12 @@
 
 #include <cassert>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::heat {
 
 double PrintedHeat::sum(Index node, double temperature, double PrintedExcess::*part) const {
-  const double from = old_temperature_[static_cast<std::size_t>(node)];
+  const double from = old_temperature_[as_size(node)];
   return storage_.sum(node, [&](const material::Material& material) {
     return printed_excess(material, form_, from, temperature).*part;
   });
@@ -15,13 +17,12 @@ double PrintedHeat::sum(Index node, double temperature, double PrintedExcess::*p
 
 void PrintedHeat::add_residual(std::span<const double> temperature, std::span<double> r) {
   for (std::size_t i = 0; i < r.size(); ++i)
-    r[i] += sum(static_cast<Index>(i), temperature[i], &PrintedExcess::heat) / dt_;
+    r[i] += sum(as_index(i), temperature[i], &PrintedExcess::heat) / dt_;
 }
 
 void PrintedHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   for (Index i = 0; i < storage_.n_nodes(); ++i)
-    *matrix.diagonal_block(i) +=
-        sum(i, temperature[static_cast<std::size_t>(i)], &PrintedExcess::slope) / dt_;
+    *matrix.diagonal_block(i) += sum(i, temperature[as_size(i)], &PrintedExcess::slope) / dt_;
 }
 
 void PrintedHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> old_temperature) {

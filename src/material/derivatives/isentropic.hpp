@@ -24,6 +24,7 @@
 #pragma once
 
 #include "material/viscoplastic.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::material {
 
@@ -106,8 +107,7 @@ template <class T>
 Sym4<T> full_tangent(const Isentropic::Response<T>& r) {
   Sym4<T> c = full_tangent(static_cast<const Viscoplastic::Response<T>&>(r));
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j)
-      c[i][static_cast<std::size_t>(j)] += r.thermal_factor * r.thermal_left[i] * r.thermal_right[j];
+    for (int j = 0; j < 6; ++j) c[i][as_size(j)] += r.thermal_factor * r.thermal_left[i] * r.thermal_right[j];
   return c;
 }
 

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::material {
@@ -113,7 +114,7 @@ inline GranularReturn granular_return(const GranularStrength& m, const Sym<doubl
   r.tangent = Sym4<double>::isotropic(d, 2 * g * shrink);
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) {
-      const auto column = static_cast<std::size_t>(j);
+      const auto column = as_size(j);
       r.tangent[i][column] += b * s[i] * s[j];
       if (j < 3) r.tangent[i][column] += c * s[i];
       if (i < 3) r.tangent[i][column] += e * s[j];

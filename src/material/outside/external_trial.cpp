@@ -14,6 +14,8 @@
 #include <cstring>
 #include <exception>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::material {
 
 namespace {
@@ -89,7 +91,7 @@ std::string fault_of(const Trial& trial, double seconds) {
     const ssize_t n = ::read(ends[0], some, sizeof some);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;  // it has ended
-    notes.append(some, static_cast<std::size_t>(n));
+    notes.append(some, as_size(n));
   }
   // A copy that is late is killed. How it ended says what the fault is; the last note says what it was doing.
   ::close(ends[0]);

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::material {
 
 namespace {
@@ -34,7 +36,7 @@ class UmatLibrary final : public ExternalLibrary {
   UmatLibrary(const SharedObject& object, const ExternalData& data)
       : umat_(reinterpret_cast<Umat>(object.get(data.behaviour, "the subroutine UMAT"))),
         properties_(data.properties),
-        n_state_(static_cast<std::size_t>(*data.state_variables)),
+        n_state_(as_size(*data.state_variables)),
         takes_rpl_(data.dissipation == ExternalDissipation::rpl) {
     name_.fill(' ');
     constexpr std::string_view name = "SOLIDUS";

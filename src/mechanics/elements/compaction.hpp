@@ -17,6 +17,7 @@
 #include <cstddef>
 
 #include "material/material.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 #include "numbers/types.hpp"
 
@@ -39,7 +40,7 @@ class Compaction {
       : coherency_(material.casting.coherency_fraction) {
     if (!acts) return;
     for (PackVector<Lane>* values : {&stiffness_, &share_, &rest_, &thermal_strain_})
-      values->resize(static_cast<std::size_t>(n_batches), Lane(0.0));
+      values->resize(as_size(n_batches), Lane(0.0));
   }
 
   void begin_step(Index batch, const Network& network) {
@@ -67,7 +68,7 @@ class Compaction {
   std::size_t bytes() const { return 4 * stiffness_.capacity() * sizeof(Lane); }
 
  private:
-  static std::size_t at(Index batch) { return static_cast<std::size_t>(batch); }
+  static std::size_t at(Index batch) { return as_size(batch); }
 
   double coherency_;            ///< f_c
   PackVector<Lane> stiffness_;  ///< ζ/Δt, [batch]; empty where no melt flows, as those below

@@ -15,6 +15,7 @@
 
 #include "mechanics/elements/coupled_points.hpp"
 #include "mechanics/elements/mixed_block.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -62,7 +63,7 @@ class CoupledMixedBlock final : public CoupledPoints<MixedBlock<material::Viscop
     const Lane* const spread = this->points_->spread(batch);
     const linear::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
                                                                               this->heat_slots_of(batch);
-    const auto field = static_cast<std::size_t>(this->field_.field);
+    const auto field = as_size(this->field_.field);
     for (std::size_t a = 0; a < n_nodes; ++a) {
       const Lane test = heat_share(values, spread, a);
       for (std::size_t c = 0; c < n_nodes; ++c) {

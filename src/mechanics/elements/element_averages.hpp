@@ -8,6 +8,7 @@
 #include "mechanics/elements/law_parts.hpp"
 #include "mechanics/state/element_values.hpp"
 #include "numbers/common_packs.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::mechanics {
@@ -17,29 +18,28 @@ template <class Values>
 class ElementAverages final : public ElementValues {
  public:
   explicit ElementAverages(Index n_elements, Index n_batches)
-      : n_elements_(n_elements), averages_(static_cast<std::size_t>(n_batches)) {}
+      : n_elements_(n_elements), averages_(as_size(n_batches)) {}
 
   void get(ElementField which, std::span<double> out) const override {
     if (which == ElementField::pore_fraction && !pores_.empty()) {
       for (Index e = 0; e < n_elements_; ++e)
-        out[static_cast<std::size_t>(e)] =
-            pores_[static_cast<std::size_t>(e / k_lanes)][static_cast<int>(e % k_lanes)];
+        out[as_size(e)] = pores_[as_size(e / k_lanes)][static_cast<int>(e % k_lanes)];
       return;
     }
     const int n_components = component_count(which);
     double* to = out.data();
     for (Index e = 0; e < n_elements_; e += k_lanes) {
-      const Values values = averages_[static_cast<std::size_t>(e / k_lanes)];
+      const Values values = averages_[as_size(e / k_lanes)];
       for (int lane = 0; lane < k_lanes && e + lane < n_elements_; ++lane) {
         put(which, element_of<typename Values::OfOne>(values, lane), to);
         to += n_components;
       }
     }
   }
-  void set(Index batch, const Values& average) { averages_.set(static_cast<std::size_t>(batch), average); }
+  void set(Index batch, const Values& average) { averages_.set(as_size(batch), average); }
   void set_pores(Index batch, const Lane& fraction) {
     pores_.resize(averages_.size(), Lane(0.0));
-    pores_[static_cast<std::size_t>(batch)] = fraction;
+    pores_[as_size(batch)] = fraction;
   }
   std::size_t bytes() const override { return averages_.bytes() + pores_.capacity() * sizeof(Lane); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mechanics/elements/kinematics.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -49,7 +50,7 @@ void add_isotropic(const Kinematics<n_nodes, kind, b_bar>& b, Lane bulk, Lane tw
 template <int n_nodes, int dim>
 void add_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v, Lane factor,
                  ElementMatrix<n_nodes, dim>& k) {
-  constexpr auto size = static_cast<std::size_t>(dim);
+  constexpr auto size = as_size(dim);
   std::size_t pair = 0;
   for (std::size_t p = 0; p < n_nodes; ++p) {
     std::array<Lane, size> scaled;
@@ -65,7 +66,7 @@ template <int n_nodes, int dim>
 void add_symmetric_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v,
                            const typename ElementMatrix<n_nodes, dim>::Vectors& z, Lane factor,
                            ElementMatrix<n_nodes, dim>& k) {
-  constexpr auto size = static_cast<std::size_t>(dim);
+  constexpr auto size = as_size(dim);
   const Lane half = Lane(0.5) * factor;
   std::size_t pair = 0;
   for (std::size_t p = 0; p < n_nodes; ++p) {
@@ -87,7 +88,7 @@ template <int n_nodes, int dim>
 void add_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v,
                  const typename ElementMatrix<n_nodes, dim>::Vectors& z, Lane factor,
                  ElementMatrix<n_nodes, dim>& symmetric, ElementMatrix<n_nodes, dim>& skew) {
-  constexpr auto size = static_cast<std::size_t>(dim);
+  constexpr auto size = as_size(dim);
   const Lane half = Lane(0.5) * factor;
   std::size_t pair = 0;
   for (std::size_t p = 0; p < n_nodes; ++p)
@@ -107,7 +108,7 @@ void add_general(const Kinematics<n_nodes, kind, b_bar>& b, const Sym4<Lane>& c,
   constexpr std::size_t dim = Kinematics<n_nodes, kind, b_bar>::dim;
   std::array<Lane, 6> trace_stress{};  // C 1
   if constexpr (b_bar)
-    for (int i = 0; i < 6; ++i) trace_stress[static_cast<std::size_t>(i)] = c[i][0] + c[i][1] + c[i][2];
+    for (int i = 0; i < 6; ++i) trace_stress[as_size(i)] = c[i][0] + c[i][1] + c[i][2];
   for (std::size_t q = 0; q < n_nodes; ++q)
     for (std::size_t j = 0; j < dim; ++j) {
       const Sym<Lane> t = b.unit_stress(c, trace_stress, q, j);

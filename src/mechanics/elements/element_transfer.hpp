@@ -5,6 +5,7 @@
 
 #include "linear/lane_slots.hpp"
 #include "mechanics/elements/element_matrix.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -12,7 +13,7 @@ namespace solidus::mechanics {
 /// @param nodes  [node][lane]
 template <int n_nodes, int n_components>
 NodalVectors<Lane, n_nodes, n_components> gather(std::span<const double> u, const Index* nodes) {
-  constexpr auto dim = static_cast<std::size_t>(n_components);
+  constexpr auto dim = as_size(n_components);
   NodalVectors<Lane, n_nodes, n_components> result;
   for (std::size_t a = 0; a < n_nodes; ++a) {
     alignas(sizeof(Lane)) double values[dim][k_lanes];
@@ -28,7 +29,7 @@ NodalVectors<Lane, n_nodes, n_components> gather(std::span<const double> u, cons
 /// to[local node][component] += f
 template <int n_nodes, int n_components>
 void scatter(const NodalVectors<Lane, n_nodes, n_components>& f, const Index* nodes, std::span<double> to) {
-  constexpr auto dim = static_cast<std::size_t>(n_components);
+  constexpr auto dim = as_size(n_components);
   for (std::size_t a = 0; a < n_nodes; ++a) {
     alignas(sizeof(Lane)) double values[dim][k_lanes];
     for (std::size_t i = 0; i < dim; ++i) f[a][i].store(values[i]);
@@ -46,7 +47,7 @@ template <int mirror, int n_nodes, int n_components>
 void scatter(const ElementMatrix<n_nodes, n_components>& k, const linear::BlockMatrix::Slot* slots,
              linear::BlockMatrix& matrix) {
   using Slot = linear::BlockMatrix::Slot;
-  constexpr auto dim = static_cast<std::size_t>(n_components);
+  constexpr auto dim = as_size(n_components);
   constexpr auto size = static_cast<Slot>(dim * dim);
   double* const base = matrix.block(0);
   std::size_t pair = 0;

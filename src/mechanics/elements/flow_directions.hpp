@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 #include "numbers/tensor.hpp"
 
@@ -79,13 +80,12 @@ class FlowDirections {
     Sym<Lane> a;
     for (std::size_t i = 0; i < 6; ++i)
       for (int lane = 0; lane < k_lanes; ++lane)
-        a.c[i].set(lane, static_cast<double>(values[i][static_cast<std::size_t>(lane)]));
+        a.c[i].set(lane, static_cast<double>(values[i][as_size(lane)]));
     return a;
   }
   static void store(const Sym<Lane>& a, Values& values) {
     for (std::size_t i = 0; i < 6; ++i)
-      for (int lane = 0; lane < k_lanes; ++lane)
-        values[i][static_cast<std::size_t>(lane)] = static_cast<float>(a.c[i][lane]);
+      for (int lane = 0; lane < k_lanes; ++lane) values[i][as_size(lane)] = static_cast<float>(a.c[i][lane]);
   }
 
   std::vector<Known> known_;  ///< [point]; empty where nothing has flowed

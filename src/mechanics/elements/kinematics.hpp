@@ -12,6 +12,7 @@
 
 #include <array>
 
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 #include "numbers/tensor.hpp"
 #include "numbers/types.hpp"
@@ -113,11 +114,10 @@ struct Kinematics {
                         std::size_t j) const {
     Sym<Lane> t;
     for (int k = 0; k < 6; ++k) {
-      for (std::size_t l = 0; l < dim; ++l)
-        t[k] += c[k][static_cast<std::size_t>(k_component<dim>[j][l])] * gradient[b][l];
+      for (std::size_t l = 0; l < dim; ++l) t[k] += c[k][as_size(k_component<dim>[j][l])] * gradient[b][l];
       if constexpr (hoop)
         if (j == 0) t[k] += c[k][2] * hoop_value[b];
-      if constexpr (b_bar) t[k] += trace_stress[static_cast<std::size_t>(k)] * excess[b][j];
+      if constexpr (b_bar) t[k] += trace_stress[as_size(k)] * excess[b][j];
     }
     return t;
   }

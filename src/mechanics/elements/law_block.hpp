@@ -10,6 +10,7 @@
 #include "mechanics/elements/kept_tangents.hpp"
 #include "mechanics/elements/padding.hpp"
 #include "mechanics/elements/point_block.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -223,9 +224,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return b;
   }
   /// Ψ_k at a point.
-  double mode_at(int point, std::size_t k) const {
-    return modes_[static_cast<std::size_t>(point) * n_modes + k];
-  }
+  double mode_at(int point, std::size_t k) const { return modes_[as_size(point) * n_modes + k]; }
   /// H⁻¹ ∫ Ψ b_a dV of 6.23, the factors of Ψ in b̄_a.
   void hold_mean(Index batch) const {
     const NodalValues unused{};

@@ -17,6 +17,7 @@
 #include "mechanics/elements/structural_points.hpp"
 #include "mesh/block_geometry.hpp"
 #include "numbers/common_packs.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -41,7 +42,7 @@ class LawHistory : public BlockKernel {
         kept_(kept_lanes(law_)),
         n_state_(kept_.size()),
         n_kept_(n_state_ + n_extra),
-        properties_(static_cast<std::size_t>(geometry_.n_batches * geometry_.n_points)) {}
+        properties_(as_size(geometry_.n_batches * geometry_.n_points)) {}
 
   bool symmetric() const override { return law_.symmetric(); }
 
@@ -86,7 +87,7 @@ class LawHistory : public BlockKernel {
         const Lane w = Lane(weight) * geometry_.weight_at(batch, q);
         for (int a = 0; a < n_nodes; ++a)
           for (int lane = 0; lane < k_lanes; ++lane)
-            out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values_at(q)[a] * w[lane];
+            out[as_size(nodes[a * k_lanes + lane])] += values_at(q)[a] * w[lane];
       }
     }
   }
@@ -108,14 +109,13 @@ class LawHistory : public BlockKernel {
 
  protected:
   std::size_t index(Index batch, int point) const {
-    return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
-           static_cast<std::size_t>(point);
+    return as_size(batch) * as_size(geometry_.n_points) + as_size(point);
   }
   const Index* nodes_of(Index batch) const {
     return geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes;
   }
   const double* values_at(int point) const { return geometry_.values.data() + point * n_nodes; }
-  Lane counted(Index batch) const { return geometry_.counted[static_cast<std::size_t>(batch)]; }
+  Lane counted(Index batch) const { return geometry_.counted[as_size(batch)]; }
   Lane inverse_radius(Index batch, int point) const {
     if constexpr (kind == AnalysisKind::axisymmetric)
       return geometry_.inverse_radius[index(batch, point)];

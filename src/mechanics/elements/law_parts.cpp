@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "material/hardening.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -64,7 +65,7 @@ template <class State, class Member>
 void append_lanes(Member State::*member, std::vector<std::size_t>& lanes) {
   const State state{};
   const auto from = reinterpret_cast<const char*>(&(state.*member)) - reinterpret_cast<const char*>(&state);
-  const auto first = static_cast<std::size_t>(from) / sizeof(Lane);
+  const auto first = as_size(from) / sizeof(Lane);
   for (std::size_t i = 0; i < sizeof(Member) / sizeof(Lane); ++i) lanes.push_back(first + i);
 }
 

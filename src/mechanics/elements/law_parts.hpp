@@ -12,6 +12,7 @@
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
 #include "mechanics/state/element_field.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -254,7 +255,7 @@ template <class OnDouble, class OnLane>
 OnDouble element_of(const OnLane& batch, int lane) {
   static_assert(sizeof(OnLane) == sizeof(OnDouble) * k_lanes);
   std::array<double, sizeof(OnDouble) / sizeof(double)> values;
-  const char* from = reinterpret_cast<const char*>(&batch) + static_cast<std::size_t>(lane) * sizeof(double);
+  const char* from = reinterpret_cast<const char*>(&batch) + as_size(lane) * sizeof(double);
   for (double& value : values) {
     std::memcpy(&value, from, sizeof value);
     from += sizeof(Lane);

@@ -20,6 +20,7 @@
 
 #include "material/material.hpp"
 #include "material/permeability.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 #include "numbers/types.hpp"
 
@@ -36,8 +37,8 @@ class LiquidFlow {
       : flows_(material.chooses_viscosity() && material.casting.coherency_fraction < 1),
         permeability_(material.casting) {
     if (!flows_) return;
-    mobility_.resize(static_cast<std::size_t>(n_batches), Lane(0.0));
-    before_.resize(static_cast<std::size_t>(n_batches), Vector{});
+    mobility_.resize(as_size(n_batches), Lane(0.0));
+    before_.resize(as_size(n_batches), Vector{});
   }
 
   /// Whether q is part of the history.
@@ -64,7 +65,7 @@ class LiquidFlow {
   }
 
  private:
-  static std::size_t at(Index batch) { return static_cast<std::size_t>(batch); }
+  static std::size_t at(Index batch) { return as_size(batch); }
 
   bool flows_;
   material::Permeability permeability_;

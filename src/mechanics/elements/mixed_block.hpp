@@ -6,6 +6,7 @@
 #include "mechanics/elements/point_block.hpp"
 #include "mechanics/elements/pores.hpp"
 #include "mechanics/elements/pressure_nodes.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -32,7 +33,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
         Nodes(mesh, block, Base::geometry_, material, stabilisation),
         compaction_(material, this->flow_.flows(), n_batches()),
         pores_(material, n_batches()) {
-    const auto n = static_cast<std::size_t>(n_batches());
+    const auto n = as_size(n_batches());
     volume_.resize(n, Lane(0.0));
     old_volume_.resize(n, Lane(0.0));
     old_divergence_.resize(n, Lane(0.0));
@@ -239,8 +240,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Nodal mass = masses(batch);
       for (std::size_t a = 0; a < n_nodes; ++a)
         for (std::size_t lane = 0; lane < k_lanes; ++lane)
-          out[static_cast<std::size_t>(nodes_of(batch)[a * k_lanes + lane])] +=
-              factor * mass[a][static_cast<int>(lane)];
+          out[as_size(nodes_of(batch)[a * k_lanes + lane])] += factor * mass[a][static_cast<int>(lane)];
     }
   }
 
@@ -265,8 +265,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
   void add_saddle(double unit, linear::SaddleMatrix& matrix) const override {
-    const auto fields = static_cast<std::size_t>(this->field_.n_fields),
-               field = static_cast<std::size_t>(this->field_.field);
+    const auto fields = as_size(this->field_.n_fields), field = as_size(this->field_.field);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       const Nodal mass = masses(batch);
@@ -290,8 +289,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
             volume[i] = Lane(unit) * this->divergence(b, batch, c, i, a, mass) + mass[a] * right[c][i];
           }
           for (int lane = 0; lane < k_lanes; ++lane) {
-            double* const border =
-                matrix.border(slots[(a * n_nodes + c) * k_lanes + static_cast<std::size_t>(lane)]);
+            double* const border = matrix.border(slots[(a * n_nodes + c) * k_lanes + as_size(lane)]);
             for (std::size_t i = 0; i < dim; ++i) {
               border[i * fields + field] += force[i][lane];
               border[(fields + field) * dim + i] += volume[i][lane];

@@ -10,6 +10,7 @@
 #include "mechanics/elements/element_matrix.hpp"
 #include "mechanics/elements/flow_directions.hpp"
 #include "mechanics/elements/point_restart.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -62,7 +63,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
       if (start.empty()) continue;
       const double temperature = temperature_at(geometry_, batch, q, this->temperature_)[lane];
       return {fmt::format("element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, {}",
-                          block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)], temperature,
+                          block_.input_element[as_size(batch * k_lanes + lane)], temperature,
                           elastic_part(law_, p).solid_fraction, text(strain_of_one), start),
               temperature};
     }
@@ -75,7 +76,7 @@ class PointBlock : public PointRestart<Law, n_nodes, kind, b_bar, n_extra> {
   std::string failed_start(Index batch, int q, int lane, const PropertiesOfOne& p, const Sym<double>& strain,
                            const std::array<std::string, k_lanes>& why) const {
     if constexpr (KeepsStateInPlace<Law>) {
-      return why[static_cast<std::size_t>(lane)];
+      return why[as_size(lane)];
     } else {
       const auto start = element_of<typename Law::template State<double>>(start_state(batch, q), lane);
       if (law_.update(p, start, strain, effective_).status == material::Status::converged) return {};

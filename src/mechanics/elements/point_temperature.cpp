@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mechanics {
 
 Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
@@ -11,10 +13,10 @@ Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
   const Index* nodes =
       geometry.nodes.data() + static_cast<std::ptrdiff_t>(batch) * geometry.n_nodes * k_lanes;
   alignas(sizeof(Lane)) double first[k_lanes], sum[k_lanes] = {};
-  for (int lane = 0; lane < k_lanes; ++lane) first[lane] = nodal[static_cast<std::size_t>(nodes[lane])];
+  for (int lane = 0; lane < k_lanes; ++lane) first[lane] = nodal[as_size(nodes[lane])];
   for (int a = 1; a < geometry.n_nodes; ++a)
     for (int lane = 0; lane < k_lanes; ++lane)
-      sum[lane] += values[a] * (nodal[static_cast<std::size_t>(nodes[a * k_lanes + lane])] - first[lane]);
+      sum[lane] += values[a] * (nodal[as_size(nodes[a * k_lanes + lane])] - first[lane]);
   return Lane::load(first) + Lane::load(sum);
 }
 
@@ -27,7 +29,7 @@ Lane within_nodes(const mesh::BlockGeometry& geometry, Index batch, int point,
   Lane least = value, largest = value;
   for (int a = 0; a < geometry.n_nodes; ++a)
     for (int lane = 0; lane < k_lanes; ++lane) {
-      const double here = nodal[static_cast<std::size_t>(nodes[a * k_lanes + lane])];
+      const double here = nodal[as_size(nodes[a * k_lanes + lane])];
       if (a == 0 || here < least[lane]) least.set(lane, here);
       if (a == 0 || here > largest[lane]) largest.set(lane, here);
     }

@@ -1,6 +1,8 @@
 /// The arrays of a body's pores, which only a melt needs whose viscosity the program has chosen.
 #include "mechanics/elements/pores.hpp"
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mechanics {
 
 Pores::Pores(const material::Material& material, Index n_batches)
@@ -9,7 +11,7 @@ Pores::Pores(const material::Material& material, Index n_batches)
       coherency_(material.casting.coherency_fraction) {
   if (!material.chooses_viscosity()) return;
   for (PackVector<Lane>* values : {&softness_, &threshold_, &held_, &full_})
-    values->resize(static_cast<std::size_t>(n_batches), Lane(0.0));
+    values->resize(as_size(n_batches), Lane(0.0));
 }
 
 std::size_t Pores::bytes() const {

@@ -32,6 +32,7 @@
 #include "material/material.hpp"
 #include "material/melt.hpp"
 #include "numbers/common_packs.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/simd.hpp"
 #include "numbers/types.hpp"
 
@@ -97,7 +98,7 @@ class Pores {
   std::size_t bytes() const;
 
  private:
-  static std::size_t at(Index batch) { return static_cast<std::size_t>(batch); }
+  static std::size_t at(Index batch) { return as_size(batch); }
 
   double tension_, critical_pressure_drop_, coherency_;  ///< p_c, ΔP_cr, f_c
   PackVector<Lane> softness_, threshold_,

@@ -9,6 +9,7 @@
 #include "mechanics/elements/mixed_kernel.hpp"
 #include "mechanics/elements/padding.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -44,7 +45,7 @@ class PressureNodes : public MixedKernel {
       : orthogonal_(stabilisation == Stabilisation::orthogonal),
         flow_(material, geometry.n_batches),
         geometry_(geometry) {
-    const auto n = static_cast<std::size_t>(geometry.n_batches);
+    const auto n = as_size(geometry.n_batches);
     compliance_.resize(n);
     twice_shear_.resize(n);
     tangent_shear_.resize(n);
@@ -60,7 +61,7 @@ class PressureNodes : public MixedKernel {
     pressure_slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
   void set_body_force(std::span<const double> force) override {
-    body_force_.resize(static_cast<std::size_t>(geometry_.n_batches) * dim);
+    body_force_.resize(as_size(geometry_.n_batches) * dim);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch)
       for (std::size_t i = 0; i < dim; ++i)
         body_force_[at(batch) * dim + i] = lane_of_elements(batch, geometry_.n_elements, force.data() + i, 3);
@@ -149,7 +150,7 @@ class PressureNodes : public MixedKernel {
   static constexpr bool hoop = kind == AnalysisKind::axisymmetric;
   static constexpr double share = 1.0 / n_nodes;  ///< N_a at the one point
 
-  static std::size_t at(Index batch) { return static_cast<std::size_t>(batch); }
+  static std::size_t at(Index batch) { return as_size(batch); }
   const Index* nodes(Index batch) const {
     return geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes;
   }
@@ -270,8 +271,7 @@ class PressureNodes : public MixedKernel {
   /// Position of a node of an element in an array of [local node][field].
   std::size_t place(Index batch, std::size_t node, std::size_t lane) const {
     const Index local = nodes(batch)[node * k_lanes + lane];
-    return static_cast<std::size_t>(local) * static_cast<std::size_t>(field_.n_fields) +
-           static_cast<std::size_t>(field_.field);
+    return as_size(local) * as_size(field_.n_fields) + as_size(field_.field);
   }
   Nodal gather_pressure(std::span<const double> p, Index batch) const {
     Nodal result;

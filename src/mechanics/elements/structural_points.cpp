@@ -6,13 +6,14 @@
 #include "material/derivatives/structural_lines.hpp"
 #include "material/derivatives/structural_partials.hpp"
 #include "material/thermal_potential.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
 StructuralPoints::StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material)
     : geometry_(geometry),
       material_(material),
-      n_points_(static_cast<std::size_t>(geometry.n_batches) * static_cast<std::size_t>(geometry.n_points)) {
+      n_points_(as_size(geometry.n_batches) * as_size(geometry.n_points)) {
   material_.phase_changes.clear();
 }
 
@@ -251,7 +252,7 @@ StructuralDensities StructuralPoints::densities(Index batch, int point, Lane tem
 void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
   // Heat that is stored at the nodes is spread to them by the weights of the closed rule instead of the shape
   // functions: the difference is kept as a correction.
-  const auto n_nodes = static_cast<std::size_t>(geometry_.n_nodes);
+  const auto n_nodes = as_size(geometry_.n_nodes);
   correction_ = weights;
   double largest = 0;
   // Where both agree, up to rounding, there is none.
@@ -261,10 +262,9 @@ void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
     const Lane inverse =
         select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));  // padding lanes have none
     for (std::size_t a = 0; a < n_nodes; ++a) {
-      Lane& c = correction_[static_cast<std::size_t>(batch) * n_nodes + a];
+      Lane& c = correction_[as_size(batch) * n_nodes + a];
       for (int q = 0; q < geometry_.n_points; ++q)
-        c -=
-            geometry_.weight_at(batch, q) * Lane(geometry_.values[static_cast<std::size_t>(q) * n_nodes + a]);
+        c -= geometry_.weight_at(batch, q) * Lane(geometry_.values[as_size(q) * n_nodes + a]);
       c *= inverse;
       for (int lane = 0; lane < k_lanes; ++lane) largest = std::max(largest, std::abs(c[lane]));
     }
@@ -291,14 +291,14 @@ void StructuralPoints::add_heat(StructuralForm form, const Stage& stage, std::sp
       const double* values = geometry_.values.data() + q * geometry_.n_nodes;
       for (int a = 0; a < geometry_.n_nodes; ++a)
         for (int lane = 0; lane < k_lanes; ++lane)
-          out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values[a] * density[lane];
+          out[as_size(nodes[a * k_lanes + lane])] += values[a] * density[lane];
     }
     // The correction moves the element's total to the nodes that store it.
     const Lane* correction = spread(batch);
     if (correction == nullptr) continue;
     for (int a = 0; a < geometry_.n_nodes; ++a)
       for (int lane = 0; lane < k_lanes; ++lane)
-        out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += correction[a][lane] * total[lane];
+        out[as_size(nodes[a * k_lanes + lane])] += correction[a][lane] * total[lane];
   }
 }
 
@@ -306,7 +306,7 @@ void StructuralPoints::add_heat_tangent(StructuralForm form, const Stage& stage,
                                         std::span<const double> temperature, const linear::LaneSlots& slots,
                                         linear::BlockMatrix& matrix) const {
   const Lane rate(1.0 / stage.stage.dt);
-  const auto n = static_cast<std::size_t>(geometry_.n_nodes);
+  const auto n = as_size(geometry_.n_nodes);
   PackVector<Lane> of_element(n * n);
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     std::fill(of_element.begin(), of_element.end(), Lane(0.0));
@@ -353,12 +353,12 @@ StructuralChange StructuralPoints::change(std::span<const double> temperature) c
       for (int a = 0; a < geometry_.n_nodes; ++a) {
         alignas(sizeof(Lane)) double of_node[k_lanes];
         for (int lane = 0; lane < k_lanes; ++lane)
-          of_node[lane] = coldness[static_cast<std::size_t>(nodes[a * k_lanes + lane])];
+          of_node[lane] = coldness[as_size(nodes[a * k_lanes + lane])];
         entropy_of_nodes += correction[a] * heat * Lane::load(of_node);
       }
     }
     // Elements that several processes hold count once.
-    const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
+    const Lane counted = geometry_.counted[as_size(batch)];
     total.energy += sum(energy * counted);
     total.entropy += sum(entropy * counted);
     total.transformed += sum(transformed * counted);
@@ -376,7 +376,7 @@ double StructuralPoints::energy(std::span<const double> temperature) const {
       energy += geometry_.weight_at(batch, q) *
                 state(at, at.now, temperature_at(geometry_, batch, q, temperature)).internal_energy;
     }
-    total += sum(energy * geometry_.counted[static_cast<std::size_t>(batch)]);
+    total += sum(energy * geometry_.counted[as_size(batch)]);
   }
   return total;
 }
@@ -393,7 +393,7 @@ StructuralChange StructuralPoints::mechanical_change() const {
       energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy + sensible.heat);
       entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy + sensible.entropy);
     }
-    const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
+    const Lane counted = geometry_.counted[as_size(batch)];
     total.energy += sum(energy * counted);
     total.entropy += sum(entropy * counted);
   }
@@ -425,7 +425,7 @@ double StructuralPoints::excess_work() const {
       excess += geometry_.weight_at(batch, q) * (at.work - (now.internal_energy - at.old_energy) + ahead +
                                                  middle * (now.entropy - at.old_entropy) - at.dissipated);
     }
-    total += sum(excess * geometry_.counted[static_cast<std::size_t>(batch)]);
+    total += sum(excess * geometry_.counted[as_size(batch)]);
   }
   return total;
 }

@@ -11,6 +11,7 @@
 #include "mechanics/state/structural_change.hpp"
 #include "mechanics/state/structural_lead.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -163,8 +164,7 @@ class StructuralPoints {
 
  private:
   std::size_t index(Index batch, int point) const {
-    return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
-           static_cast<std::size_t>(point);
+    return as_size(batch) * as_size(geometry_.n_points) + as_size(point);
   }
   /// Entropy, internal energy and Θ ∂S/∂Θ of deformation and hardening, along the lines of Θ_n.
   struct State {

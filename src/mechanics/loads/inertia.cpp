@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -33,7 +34,7 @@ MassMatrix::MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<cons
   values_.assign(columns_.size(), 0.0);
   // By blocks: consistent masses of the shape functions, or masses on the diagonal.
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const double rho = density[static_cast<std::size_t>(block.body)];
+    const double rho = density[as_size(block.body)];
     if (mass == MassKind::consistent)
       add_consistent(mesh, block, kind, rho);
     else
@@ -42,11 +43,11 @@ MassMatrix::MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<cons
 }
 
 std::size_t MassMatrix::place(Index row, Index column) const {
-  const auto begin = columns_.begin() + row_start_[static_cast<std::size_t>(row)];
-  const auto end = columns_.begin() + row_start_[static_cast<std::size_t>(row) + 1];
+  const auto begin = columns_.begin() + row_start_[as_size(row)];
+  const auto end = columns_.begin() + row_start_[as_size(row) + 1];
   const auto found = std::lower_bound(begin, end, column);
   assert(found != end && *found == column);
-  return static_cast<std::size_t>(found - columns_.begin());
+  return as_size(found - columns_.begin());
 }
 
 void MassMatrix::add_consistent(const mesh::Mesh& mesh, const mesh::ElementBlock& block, AnalysisKind kind,
@@ -54,7 +55,7 @@ void MassMatrix::add_consistent(const mesh::Mesh& mesh, const mesh::ElementBlock
   // The mass matrix is ρ ∫ N_a N_b, by a rule that is exact for the product. Rows of other processes are
   // theirs.
   const mesh::BlockGeometry g(mesh, block, kind, mass_rule(block.shape, kind));
-  const auto n_owned = static_cast<Index>(row_start_.size()) - 1;
+  const auto n_owned = as_index(row_start_.size()) - 1;
   for (Index e = 0; e < g.n_elements; ++e)
     for (int a = 0; a < g.n_nodes; ++a) {
       const Index row = block.element(e)[a];
@@ -74,12 +75,12 @@ void MassMatrix::add_lumped(const mesh::Mesh& mesh, const mesh::ElementBlock& bl
                             double density) {
   const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
   const int n_nodes = mesh::node_count(block.shape);
-  const auto n_owned = static_cast<Index>(row_start_.size()) - 1;
+  const auto n_owned = as_index(row_start_.size()) - 1;
   for (Index e = 0; e < block.size(); ++e)
     for (int a = 0; a < n_nodes; ++a) {
       const Index row = block.element(e)[a];
       if (row >= n_owned) continue;
-      const Lane& w = weights[static_cast<std::size_t>((e / k_lanes) * n_nodes + a)];
+      const Lane& w = weights[as_size((e / k_lanes) * n_nodes + a)];
       values_[place(row, row)] += density * w[e % k_lanes];
     }
 }
@@ -89,16 +90,15 @@ void MassMatrix::bind(const linear::BlockMatrix& matrix) {
   slots_.reserve(columns_.size());
   for (std::size_t row = 0; row + 1 < row_start_.size(); ++row)
     for (auto k = row_start_[row]; k < row_start_[row + 1]; ++k)
-      slots_.push_back(matrix.slot(static_cast<Index>(row), columns_[static_cast<std::size_t>(k)]));
+      slots_.push_back(matrix.slot(as_index(row), columns_[as_size(k)]));
 }
 
 void MassMatrix::multiply(std::span<const double> x, int components, std::span<double> y) const {
-  const auto n = static_cast<std::size_t>(components);
+  const auto n = as_size(components);
   std::fill(y.begin(), y.end(), 0.0);
   for (std::size_t row = 0; row + 1 < row_start_.size(); ++row)
-    for (auto k = static_cast<std::size_t>(row_start_[row]);
-         k < static_cast<std::size_t>(row_start_[row + 1]); ++k) {
-      const auto column = static_cast<std::size_t>(columns_[k]);
+    for (auto k = as_size(row_start_[row]); k < as_size(row_start_[row + 1]); ++k) {
+      const auto column = as_size(columns_[k]);
       for (std::size_t i = 0; i < n; ++i) y[row * n + i] += values_[k] * x[column * n + i];
     }
 }

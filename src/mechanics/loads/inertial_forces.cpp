@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
@@ -14,11 +15,11 @@ namespace solidus::mechanics {
 InertialForces::InertialForces(const mesh::Mesh& mesh, AnalysisKind kind, int components,
                                std::span<const double> density, DynamicsOptions options)
     : components_(components),
-      n_owned_(static_cast<std::size_t>(mesh.n_owned_nodes * components)),
+      n_owned_(as_size(mesh.n_owned_nodes * components)),
       options_(std::move(options)),
       mass_(mesh, kind, density, options_.mass),
       constant_(n_owned_),
-      increment_(mesh.x.size() * static_cast<std::size_t>(components)) {
+      increment_(mesh.x.size() * as_size(components)) {
   initial_velocity_.assign(increment_.size(), 0.0);
   if (options_.initial_velocity.empty()) return;
   assert(options_.initial_velocity.size() == mesh.bodies.size());
@@ -29,7 +30,7 @@ void InertialForces::set_initial_velocity(const mesh::Mesh& mesh, AnalysisKind k
                                           std::span<const double> density) {
   // A node of several bodies gets the mean of their velocities, weighted by their lumped masses, so that the
   // momentum is that of the bodies.
-  const auto n = static_cast<std::size_t>(components_);
+  const auto n = as_size(components_);
   std::vector<double> mass(n_owned_ / n, 0.0), of_body(mass.size());
   const std::vector<double> ones(mesh.x.size(), 1.0);
   for (std::size_t b = 0; b < density.size(); ++b) {

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/common_failure.hpp"
 #include "system/errors.hpp"
@@ -45,7 +46,7 @@ void visit_points(const mesh::Mesh& mesh, AnalysisKind kind, const linear::Activ
     const double out = active.reversed(faces) ? -1.0 : 1.0;
     for (Index face = 0; face < geometry.n_faces; ++face)
       for (int q = 0; q < geometry.n_points; ++q) {
-        const auto at = static_cast<std::size_t>(face * geometry.n_points + q);
+        const auto at = as_size(face * geometry.n_points + q);
         FacePoint point{faces.element(face),
                         geometry.values.data() + static_cast<std::ptrdiff_t>(q) * geometry.n_nodes,
                         geometry.n_nodes, geometry.weight[at], geometry.normal[at]};
@@ -59,7 +60,7 @@ void visit_points(const mesh::Mesh& mesh, AnalysisKind kind, const linear::Activ
 Position place_of(const mesh::Mesh& mesh, const Index* nodes, const double* values, int n_nodes) {
   Position x{};
   for (int a = 0; a < n_nodes; ++a)
-    for (std::size_t i = 0; i < 3; ++i) x[i] += values[a] * mesh.x[static_cast<std::size_t>(nodes[a])][i];
+    for (std::size_t i = 0; i < 3; ++i) x[i] += values[a] * mesh.x[as_size(nodes[a])][i];
   return x;
 }
 
@@ -71,8 +72,8 @@ int common_coordinate(const mesh::Mesh& mesh, std::span<const Index> nodes) {
   for (std::size_t i = 0; i < 3; ++i) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Index node : nodes) {
-      low = std::min(low, mesh.x[static_cast<std::size_t>(node)][i]);
-      high = std::max(high, mesh.x[static_cast<std::size_t>(node)][i]);
+      low = std::min(low, mesh.x[as_size(node)][i]);
+      high = std::max(high, mesh.x[as_size(node)][i]);
     }
     extent[i] = parallel::global_max(high) - parallel::global_min(low);
   }
@@ -80,7 +81,7 @@ int common_coordinate(const mesh::Mesh& mesh, std::span<const Index> nodes) {
   const double largest = *std::max_element(extent.begin(), extent.end());
   int common = -1, n = 0;
   for (int i = 0; i < mesh.dimension; ++i)
-    if (extent[static_cast<std::size_t>(i)] <= k_flat * largest) {
+    if (extent[as_size(i)] <= k_flat * largest) {
       common = i;
       ++n;
     }
@@ -107,8 +108,8 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions con
       density_(density.begin(), density.end()),
       conditions_(std::move(conditions)),
       components_(displacement_components(kind)),
-      constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
-      fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0),
+      constant_(as_size(mesh.n_owned_nodes * components_), 0.0),
+      fixed_(as_size(mesh.n_nodes() * components_), 0),
       supported_(fixed_.size(), 0) {
   // Loads on surfaces come first, then supports, then faces that stay plane, since those look at what is
   // prescribed.
@@ -122,15 +123,14 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, MechanicalConditions con
     largest = parallel::global_max(largest);  // a process may have nothing but nodes on the axis
     Support axis{0.0, {}, {}, {}};
     for (Index node = 0; node < mesh.n_nodes(); ++node)
-      if (std::abs(mesh.x[static_cast<std::size_t>(node)][0]) <= 1e-10 * largest)
-        axis.entries.push_back(node * components_);
+      if (std::abs(mesh.x[as_size(node)][0]) <= 1e-10 * largest) axis.entries.push_back(node * components_);
     supports_.push_back(std::move(axis));
   }
   for (const PrescribedDisplacement& condition : conditions_.displacements)
     add_support(mesh, active, condition, start);
   // Prescribed entries are marked for all conditions together.
   for (const Support& support : supports_)
-    for (Index entry : support.entries) fixed_[static_cast<std::size_t>(entry)] = 1;
+    for (Index entry : support.entries) fixed_[as_size(entry)] = 1;
   std::vector<char> tied(conditions_.plane_faces.empty() ? 0 : fixed_.size(), 0);
   for (const PlaneFace& face : conditions_.plane_faces) add_plane_face(mesh, active, face, tied);
   for (Index node = 0; node < mesh.n_nodes(); ++node)
@@ -149,12 +149,11 @@ void Loads::add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
     if (active.node(node)) support.entries.push_back(node * components_ + condition.component);
   if (condition.relative)
     for (const Index entry : support.entries)
-      support.start.push_back(start.empty() ? 0.0 : start[static_cast<std::size_t>(entry)]);
+      support.start.push_back(start.empty() ? 0.0 : start[as_size(entry)]);
   if (!condition.value.uniform())
-    for (const Index entry : support.entries)
-      support.x.push_back(mesh.x[static_cast<std::size_t>(entry / components_)]);
+    for (const Index entry : support.entries) support.x.push_back(mesh.x[as_size(entry / components_)]);
   // Entries that are held have no equation; later conditions may hold the same one.
-  for (const Index entry : support.entries) supported_[static_cast<std::size_t>(entry)] = 1;
+  for (const Index entry : support.entries) supported_[as_size(entry)] = 1;
   supports_.push_back(std::move(support));
 }
 
@@ -175,7 +174,7 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const linear::ActiveSet& acti
   for (const Index node : nodes) {
     if (!active.node(node)) continue;
     const Index entry = node * components_ + normal;
-    const auto at = static_cast<std::size_t>(entry);
+    const auto at = as_size(entry);
     is_fixed = is_fixed || fixed_[at] != 0;
     is_tied = is_tied || tied[at] != 0;
     tied[at] = 1;
@@ -207,7 +206,7 @@ void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear:
       const Index node = p.nodes[a];
       if (node >= mesh.n_owned_nodes) continue;
       for (int i = 0; i < components_; ++i) {
-        const double weight = -p.weight * p.values[a] * p.normal[static_cast<std::size_t>(i)];
+        const double weight = -p.weight * p.values[a] * p.normal[as_size(i)];
         if (placed)
           load.add_share(node * components_ + i, point, weight);
         else
@@ -227,7 +226,7 @@ void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear:
                         const Traction& traction) {
   const mesh::Surface& surface = find(mesh.surfaces, traction.surface, "surface");
   for (int i = 0; i < components_; ++i)
-    add_component(mesh, kind, active, surface, i, traction.value[static_cast<std::size_t>(i)]);
+    add_component(mesh, kind, active, surface, i, traction.value[as_size(i)]);
 }
 
 void Loads::add_component(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
@@ -257,10 +256,9 @@ void Loads::add_component(const mesh::Mesh& mesh, AnalysisKind kind, const linea
 
 void Loads::add_volume(AnalysisKind kind, const linear::ActiveSet& active, const BodyForce& force) {
   std::vector<PlacedForce> loads;
-  for (int i = 0; i < components_; ++i) loads.emplace_back(force.value[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < components_; ++i) loads.emplace_back(force.value[as_size(i)]);
   for (const mesh::ElementBlock& block : mesh_.blocks) {
-    if (mesh_.bodies[static_cast<std::size_t>(block.body)].name != force.body || !active.body(block.body))
-      continue;
+    if (mesh_.bodies[as_size(block.body)].name != force.body || !active.body(block.body)) continue;
     // Every point of every element that touches a node of this process; padding of a batch weighs nothing.
     const double scale = scale_of(force, block.body);
     const mesh::BlockGeometry g(mesh_, block, kind,
@@ -271,7 +269,7 @@ void Loads::add_volume(AnalysisKind kind, const linear::ActiveSet& active, const
         const double weight = scale * g.weight_at(e / k_lanes, q)[static_cast<int>(e % k_lanes)];
         const Position x = place_of(mesh_, block.element(e), values, g.n_nodes);
         for (int i = 0; i < components_; ++i) {
-          PlacedForce& load = loads[static_cast<std::size_t>(i)];
+          PlacedForce& load = loads[as_size(i)];
           const std::size_t point = load.add_point(x);
           for (int a = 0; a < g.n_nodes; ++a)
             if (const Index node = block.element(e)[a]; node < mesh_.n_owned_nodes)
@@ -284,15 +282,15 @@ void Loads::add_volume(AnalysisKind kind, const linear::ActiveSet& active, const
 
 void Loads::add_body_forces(const mesh::ElementBlock& block, double time, std::span<double> force) const {
   // The middles of the elements are those of their corners, which linear simplices have alone.
-  const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+  const auto n = as_size(mesh::node_count(block.shape));
   const std::vector<double> equal(n, 1.0 / static_cast<double>(n));
   std::vector<Position> x;
   for (Index e = 0; e < block.size(); ++e)
     x.push_back(place_of(mesh_, block.element(e), equal.data(), static_cast<int>(n)));
   std::vector<double> values(x.size());
   for (const BodyForce& one : conditions_.body_forces) {
-    if (mesh_.bodies[static_cast<std::size_t>(block.body)].name != one.body) continue;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(components_); ++i) {
+    if (mesh_.bodies[as_size(block.body)].name != one.body) continue;
+    for (std::size_t i = 0; i < as_size(components_); ++i) {
       one.value[i].values(x, time, values);
       for (std::size_t e = 0; e < x.size(); ++e) force[3 * e + i] += scale_of(one, block.body) * values[e];
     }
@@ -308,7 +306,7 @@ void Loads::evaluate(double time, std::span<double> force) const {
   for (const Unit& unit : units_) {
     const double factor = unit.factor.value(time);
     if (factor == 0) continue;
-    for (const auto& [entry, value] : unit.force) force[static_cast<std::size_t>(entry)] += factor * value;
+    for (const auto& [entry, value] : unit.force) force[as_size(entry)] += factor * value;
   }
   if (placed_.empty()) return;
   run_collectively([&] {
@@ -327,7 +325,7 @@ void Loads::prescribe(double time, std::span<double> displacement) const {
   for (const Support& support : supports_) {
     const std::vector<double> values = support.values(time);
     for (std::size_t i = 0; i < support.entries.size(); ++i)
-      displacement[static_cast<std::size_t>(support.entries[i])] =
+      displacement[as_size(support.entries[i])] =
           support.start.empty() ? values[i] : support.start[i] + values[i];
   }
 }
@@ -336,7 +334,7 @@ void Loads::prescribe_rate(double time, std::span<double> velocity) const {
   for (const Support& support : supports_) {
     if (support.value.tabulated()) {
       const double rate = support.value.derivative(time);
-      for (const Index entry : support.entries) velocity[static_cast<std::size_t>(entry)] = rate;
+      for (const Index entry : support.entries) velocity[as_size(entry)] = rate;
       continue;
     }
     // Of a formula the parabola through three times from this one on, so close that rounding and curvature
@@ -345,8 +343,7 @@ void Loads::prescribe_rate(double time, std::span<double> velocity) const {
     const std::vector<double> now = support.values(time), next = support.values(time + k_apart),
                               last = support.values(time + 2 * k_apart);
     for (std::size_t i = 0; i < support.entries.size(); ++i)
-      velocity[static_cast<std::size_t>(support.entries[i])] =
-          (4 * next[i] - 3 * now[i] - last[i]) / (2 * k_apart);
+      velocity[as_size(support.entries[i])] = (4 * next[i] - 3 * now[i] - last[i]) / (2 * k_apart);
   }
 }
 

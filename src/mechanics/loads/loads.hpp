@@ -10,6 +10,7 @@
 #include "mechanics/loads/mechanical_conditions.hpp"
 #include "mechanics/loads/placed_force.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -77,7 +78,7 @@ class Loads {
   void add_volume(AnalysisKind kind, const linear::ActiveSet& active, const BodyForce& force);
   /// The factor of a force by which a body is loaded: one, or its density.
   double scale_of(const BodyForce& force, int body) const {
-    return force.per_mass ? density_[static_cast<std::size_t>(body)] : 1.0;
+    return force.per_mass ? density_[as_size(body)] : 1.0;
   }
 
   const mesh::Mesh& mesh_;

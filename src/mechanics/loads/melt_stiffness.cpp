@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mechanics/loads/section.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
@@ -19,7 +20,7 @@ double extent_along(const mesh::Mesh& mesh, int body, const std::array<double, 3
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
     for (const Index node : block.nodes) {
-      const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+      const mesh::Point& x = mesh.x[as_size(node)];
       const double along = x[0] * direction[0] + x[1] * direction[1] + x[2] * direction[2];
       low = std::min(low, along);
       high = std::max(high, along);
@@ -40,7 +41,7 @@ TurningHead head_of_turning(const mesh::Mesh& mesh, int body, const Turning& tur
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (block.body != body) continue;
     for (const Index node : block.nodes) {
-      const double squared = turning.squared_radius(mesh.x[static_cast<std::size_t>(node)]);
+      const double squared = turning.squared_radius(mesh.x[as_size(node)]);
       low = std::min(low, squared);
       high = std::max(high, squared);
     }

@@ -12,6 +12,7 @@
 #include "mesh/block_geometry.hpp"
 #include "mesh/quadrature.hpp"
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "system/processes.hpp"
 
@@ -19,17 +20,13 @@ namespace solidus::mechanics {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Marks the components in which a node cannot move freely off a plane: bit i for component i, [local node].
 std::vector<unsigned> held_components(const mesh::Mesh& mesh, const MechanicalConditions& conditions) {
   std::vector<unsigned> held(mesh.x.size(), 0);
   const auto mark = [&](const std::string& node_set, unsigned bits) {
     const auto set = mesh.node_sets.find(node_set);
     if (set == mesh.node_sets.end()) return;
-    for (const Index node : set->second) held[at(node)] |= bits;
+    for (const Index node : set->second) held[as_size(node)] |= bits;
   };
   for (const PrescribedDisplacement& d : conditions.displacements) mark(d.node_set, 1U << d.component);
   for (const PlaneFace& face : conditions.plane_faces) mark(face.node_set, 7U);
@@ -49,7 +46,8 @@ struct Face {
 bool counts(const mesh::Mesh& mesh, const mesh::FaceKey& key) {
   Index first = -1;
   for (const Index node : key.vertices)
-    if (node >= 0 && (first < 0 || mesh.global_node[at(node)] < mesh.global_node[at(first)])) first = node;
+    if (node >= 0 && (first < 0 || mesh.global_node[as_size(node)] < mesh.global_node[as_size(first)]))
+      first = node;
   return first < mesh.n_owned_nodes;
 }
 
@@ -59,7 +57,7 @@ std::vector<Face> skin_faces(const mesh::Mesh& mesh, int body) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
     if (block.body != body) continue;
-    const auto vertices = at(mesh::vertex_count(mesh::face_shape(block.shape)));
+    const auto vertices = as_size(mesh::vertex_count(mesh::face_shape(block.shape)));
     // Every face of every element of the body, with a key of its sorted vertices.
     for (Index e = 0; e < block.size(); ++e)
       for (int f = 0; f < mesh::face_count(block.shape); ++f) {
@@ -87,8 +85,8 @@ bool is_held(const mesh::FaceKey& key, const mesh::Point& normal, const std::vec
   constexpr double k_along = 0.999;
   for (unsigned i = 0; i < 3; ++i)
     if (std::abs(normal[i]) > k_along)
-      return std::ranges::all_of(key.vertices,
-                                 [&](Index node) { return node < 0 || (held[at(node)] & (1U << i)) != 0; });
+      return std::ranges::all_of(
+          key.vertices, [&](Index node) { return node < 0 || (held[as_size(node)] & (1U << i)) != 0; });
   return false;
 }
 
@@ -121,7 +119,7 @@ std::vector<double> volumes(const mesh::Mesh& mesh, AnalysisKind kind, int body)
       Lane volume(0.0);
       // Elements that another process counts weigh nothing here.
       for (int q = 0; q < geometry.n_points; ++q) volume += geometry.weight_at(batch, q);
-      volume *= geometry.counted[at(batch)];
+      volume *= geometry.counted[as_size(batch)];
       for (int lane = 0; lane < k_lanes; ++lane) result.push_back(volume[lane]);
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mechanics {
@@ -26,9 +27,9 @@ std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     for (const Index node : block.nodes) {
-      int& first = first_body[static_cast<std::size_t>(node)];
+      int& first = first_body[as_size(node)];
       if (first < 0) first = block.body;
-      touching[static_cast<std::size_t>(first) * n + static_cast<std::size_t>(block.body)] = 1;
+      touching[as_size(first) * n + as_size(block.body)] = 1;
     }
   }
   // Two bodies may share nodes on another process only.
@@ -72,15 +73,14 @@ std::vector<double> extents(const mesh::Mesh& mesh, std::span<const std::size_t>
 BodyBalance::BodyBalance(const mesh::Mesh& mesh, const linear::ActiveSet& active, int components)
     : components_(components),
       body_group_(groups_of_bodies(mesh, active)),
-      node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
+      node_group_(as_size(mesh.n_owned_nodes), 0),
       n_groups_(mesh.bodies.size()),
       sums_(mesh.bodies.size()) {
   // Bodies that share nodes balance together.
   for (const mesh::ElementBlock& block : mesh.blocks) {
     if (!active.body(block.body)) continue;
     for (const Index node : block.nodes)
-      if (node < mesh.n_owned_nodes)
-        node_group_[static_cast<std::size_t>(node)] = body_group_[static_cast<std::size_t>(block.body)];
+      if (node < mesh.n_owned_nodes) node_group_[as_size(node)] = body_group_[as_size(block.body)];
   }
   extent_ = extents(mesh, node_group_, n_groups_);
 }
@@ -90,7 +90,7 @@ void BodyBalance::begin() {
 }
 
 void BodyBalance::add_internal(int body, double squares) {
-  sums_[body_group_[static_cast<std::size_t>(body)]].internal += squares;
+  sums_[body_group_[as_size(body)]].internal += squares;
 }
 
 void BodyBalance::add_exchanged(std::span<const double> force) {

@@ -11,6 +11,7 @@
 
 #include "linear/active_set.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -43,7 +44,7 @@ class BodyBalance {
 
  private:
   std::size_t group_of_entry(std::size_t entry, int of_node) const {
-    return node_group_[entry / static_cast<std::size_t>(of_node)];
+    return node_group_[entry / as_size(of_node)];
   }
 
   int components_;

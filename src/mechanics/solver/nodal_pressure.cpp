@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
@@ -41,7 +42,7 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies
       fields_(std::move(fields_of_bodies)),
       blocks_(blocks_with_pressure(mesh, blocks)) {
   // A pressure for each node and field; a field is a body, or several that share no nodes.
-  const auto n = mesh.x.size() * static_cast<std::size_t>(fields_.n_fields);
+  const auto n = mesh.x.size() * as_size(fields_.n_fields);
   pressure_.assign(n, 0.0);
   volume_residual_.assign(n, 0.0);
   volume_change_.assign(n, 0.0);
@@ -50,12 +51,11 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, BodyFields fields_of_bodies
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto* kernel = dynamic_cast<MixedKernel*>(blocks[b].get());
     if (kernel == nullptr) continue;
-    const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
+    const auto body = as_size(mesh.blocks[b].body);
     const int field = fields_.of_body[body];
     kernel->use_pressure({pressure_, volume_residual_, volume_change_, fields_.n_fields, field});
     kernels_.push_back(kernel);
-    for (const Index node : mesh.blocks[b].nodes)
-      absent[static_cast<std::size_t>(node * fields_.n_fields + field)] = 0;
+    for (const Index node : mesh.blocks[b].nodes) absent[as_size(node * fields_.n_fields + field)] = 0;
   }
   // A ghost may have its only such element on its owner.
   ghosts_.update(absent, fields_.n_fields);
@@ -113,7 +113,7 @@ PressureProjection::PressureProjection(const mesh::Mesh& mesh, const parallel::G
       ghosts_(ghosts),
       kernels_(kernels),
       fields_(fields),
-      weight_(mesh.x.size() * static_cast<std::size_t>(fields)) {}
+      weight_(mesh.x.size() * as_size(fields)) {}
 
 void PressureProjection::begin() {
   std::fill(weight_.begin(), weight_.end(), 0.0);
@@ -122,7 +122,7 @@ void PressureProjection::begin() {
 }
 
 void PressureProjection::add(std::span<const double> p, double factor, std::span<double> out) {
-  const auto dim = static_cast<std::size_t>(mesh_.dimension);
+  const auto dim = as_size(mesh_.dimension);
   gradient_.assign(p.size() * dim, 0.0);
   for (const MixedKernel* kernel : kernels_) kernel->add_gradient(p, gradient_);
   for (std::size_t i = 0; i < p.size(); ++i)

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mechanics {
 
 namespace {
@@ -33,7 +35,7 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::Saddl
       multigrid_(mesh, matrix.components(), linear::rigid_body_modes, symmetric, k_coarsest) {
   // Where melt flows the Schur complement is a Laplacian and needs multigrid; elsewhere it is a mass matrix
   // with incomplete factors.
-  const auto fields = static_cast<std::size_t>(pressure.fields().n_fields);
+  const auto fields = as_size(pressure.fields().n_fields);
   const auto& kernels = pressure.kernels();
   if (std::any_of(kernels.begin(), kernels.end(), [](const MixedKernel* kernel) { return kernel->flows(); }))
     for (std::size_t field = 0; field < fields; ++field)
@@ -49,15 +51,14 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::Saddl
       absent[node] = pressure.absent()[node * fields + field];
     schur_.back()->set_fixed(std::move(absent));
   }
-  for (MixedKernel* kernel : pressure.kernels())
-    kernel->bind_pressure(*schur_[static_cast<std::size_t>(kernel->field())]);
+  for (MixedKernel* kernel : pressure.kernels()) kernel->bind_pressure(*schur_[as_size(kernel->field())]);
 }
 
 void SaddlePreconditioner::set_up_schur() {
   const double scale = pressure_.unit() * pressure_.unit();
   for (const auto& matrix : schur_) matrix->set_zero();
   for (const MixedKernel* kernel : pressure_.kernels())
-    kernel->add_schur(scale, *schur_[static_cast<std::size_t>(kernel->field())]);
+    kernel->add_schur(scale, *schur_[as_size(kernel->field())]);
   for (std::size_t field = 0; field < factors_.size(); ++field) factors_[field].set_up(*schur_[field]);
   for (std::size_t field = 0; field < schur_cycles_.size(); ++field)
     schur_cycles_[field]->set_up(*schur_[field]);
@@ -71,7 +72,7 @@ void SaddlePreconditioner::find_softness() {
   std::vector<double> softness(n, 0.0), volume(n, 0.0);
   // Softness of the volume at each node; its inverse augments the displacement block.
   for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_softness(softness, volume);
-  inverse_softness_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes) * fields, 0.0);
+  inverse_softness_.assign(as_size(mesh_.n_owned_nodes) * fields, 0.0);
   stiffness_.assign(n, 0.0);
   for (std::size_t i = 0; i < inverse_softness_.size(); ++i) {
     // A node without volume of a mixed element has no pressure to augment.
@@ -93,7 +94,7 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   // A block triangular preconditioner in transformed pressures: first the Schur complement of each pressure
   // field, by multigrid or by factors.
   const std::size_t fields = schur_.size();
-  const auto n_p = static_cast<std::size_t>(mesh_.n_owned_nodes) * fields;
+  const auto n_p = as_size(mesh_.n_owned_nodes) * fields;
   const std::size_t n_u = r.size() - n_p;
   right_.resize(n_p / fields);
   result_.resize(n_p);
@@ -118,7 +119,7 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   multigrid_.apply(part_, z.first(n_u));
 
   // The transformation p = p̂ + W⁻¹ Bᵀ u is undone at last, with the displacements found.
-  local_u_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
+  local_u_.resize(mesh_.x.size() * as_size(matrix_.components()));
   std::copy_n(z.begin(), n_u, local_u_.begin());
   ghosts_.update(local_u_, matrix_.components());
   result_.resize(n_p);

@@ -7,6 +7,7 @@
 
 #include "linear/automatic_solver.hpp"
 #include "linear/factorisation.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
 
@@ -92,13 +93,13 @@ void SaddleSolver::assemble() {
 }
 
 void SaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
-  const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components()),
-             n_p = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.fields());
+  const auto n_u = as_size(mesh_.n_owned_nodes * matrix_.components()),
+             n_p = as_size(mesh_.n_owned_nodes * matrix_.fields());
   // Scratch of the sizes of now; bodies may have come or gone.
   work_.whole.resize(n_u + n_p);
   work_.product.resize(n_u + n_p);
-  work_.local_u.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
-  work_.local_p.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.fields()));
+  work_.local_u.resize(mesh_.x.size() * as_size(matrix_.components()));
+  work_.local_p.resize(mesh_.x.size() * as_size(matrix_.fields()));
   // Unknowns are the free entries only; held ones are zero in the product.
   unknowns_->expand(x, work_.whole);
   // Both parts with their ghosts, the product, and the projection of the stabilisation.
@@ -114,8 +115,7 @@ void SaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
 }
 
 void SaddleSolver::precondition(std::span<const double> r, std::span<double> z) {
-  work_.whole.resize(
-      static_cast<std::size_t>(mesh_.n_owned_nodes * (matrix_.components() + matrix_.fields())));
+  work_.whole.resize(as_size(mesh_.n_owned_nodes * (matrix_.components() + matrix_.fields())));
   work_.product.resize(work_.whole.size());
   unknowns_->expand(r, work_.whole);
   preconditioner_->apply(work_.whole, work_.product);
@@ -158,7 +158,7 @@ linear::LinearReport SaddleSolver::solve_with_old_factors(std::span<const double
 void SaddleSolver::restrict_right(std::span<const double> b) {
   // From the monotone form to the symmetric one.
   std::vector<double> whole(b.begin(), b.end());
-  const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components());
+  const auto n_u = as_size(mesh_.n_owned_nodes * matrix_.components());
   for (std::size_t i = n_u; i < whole.size(); ++i) whole[i] = -whole[i];
   unknowns_->restrict_to(whole, work_.right);
 }

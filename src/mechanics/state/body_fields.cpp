@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mechanics {
@@ -17,7 +18,7 @@ BodyFields body_fields(const mesh::Mesh& mesh, const std::vector<material::Mater
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     if (!blocks[b]) continue;
     for (const Index node : mesh.blocks[b].nodes)
-      at_node[static_cast<std::size_t>(node) * n + static_cast<std::size_t>(mesh.blocks[b].body)] = 1;
+      at_node[as_size(node) * n + as_size(mesh.blocks[b].body)] = 1;
   }
   for (std::size_t node = 0; node < mesh.x.size(); ++node)
     for (std::size_t a = 0; a < n; ++a)

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mechanics {
 
 namespace {
@@ -26,7 +28,7 @@ double share_at(const FractionPlace& at, std::size_t node) {
 std::vector<char> melting_blocks(const mesh::Mesh& mesh, const std::vector<material::Material>& materials) {
   std::vector<char> melts;
   for (const mesh::ElementBlock& block : mesh.blocks)
-    melts.push_back(materials[static_cast<std::size_t>(block.body)].solidification() != nullptr);
+    melts.push_back(materials[as_size(block.body)].solidification() != nullptr);
   return melts;
 }
 
@@ -41,7 +43,7 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
   // A block needs nodal fractions if its material freezes or strains by a phase change. Whether any material
   // melts is known on every process, since each has every block.
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
+    const auto body = as_size(mesh.blocks[b].body);
     const material::Material& material = materials[body];
     OfBlock& block = blocks_[b];
     block.strains = std::any_of(material.phase_changes.begin(), material.phase_changes.end(),
@@ -50,7 +52,7 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
     if (material.solidification() == nullptr && !block.strains) continue;
     block.material = &material;
     // The fields of a body are evaluated at its nodes; each block keeps the list of them without doubles.
-    block.field = static_cast<std::size_t>(fields_.of_body[body]);
+    block.field = as_size(fields_.of_body[body]);
     block.nodes = mesh.blocks[b].nodes;
     std::sort(block.nodes.begin(), block.nodes.end());
     block.nodes.erase(std::unique(block.nodes.begin(), block.nodes.end()), block.nodes.end());
@@ -62,12 +64,11 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
     if (!block.strains) continue;
     straining_.resize(n_nodes_, 0.0);
     for (const Index node : block.nodes)
-      block.initial_straining.push_back(
-          straining(material, initial_temperature[static_cast<std::size_t>(node)], k_molten));
+      block.initial_straining.push_back(straining(material, initial_temperature[as_size(node)], k_molten));
   }
   // The initial solid fraction is the reference of a run that starts with metal partly solid.
   if (!melts) return;
-  initial_solid_fraction_.assign(n_nodes_ * static_cast<std::size_t>(fields_.n_fields), 1.0);
+  initial_solid_fraction_.assign(n_nodes_ * as_size(fields_.n_fields), 1.0);
   initial_solid_fraction_ = solid_fraction({initial_temperature, {}});
 }
 
@@ -79,7 +80,7 @@ std::vector<double> NodalPhases::solid_fraction(const FractionPlace& at) const {
     if (freezing == nullptr) continue;
     // At each node by the temperature and, within a jump, by the share of it that is done.
     for (const Index node : of.nodes) {
-      const auto i = static_cast<std::size_t>(node);
+      const auto i = as_size(node);
       fraction[place(i, of)] = freezing->fraction.value(at.temperature[i], share_at(at, i));
     }
   }
@@ -101,7 +102,7 @@ PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
   if (of.material == nullptr) return {};
   const material::PhaseChange* const freezing = of.material->solidification();
   for (std::size_t n = 0; n < of.nodes.size(); ++n) {
-    const auto i = static_cast<std::size_t>(of.nodes[n]);
+    const auto i = as_size(of.nodes[n]);
     const double share = share_at(at, i);
     if (freezing != nullptr) {
       const double now = freezing->fraction.value(at.temperature[i], share);

@@ -21,6 +21,7 @@
 #include "material/material.hpp"
 #include "mechanics/state/body_fields.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -69,7 +70,7 @@ class NodalPhases {
     std::vector<double> initial_straining;         ///< e^pc(Θ_0), [nodes]
   };
   std::size_t place(std::size_t node, const OfBlock& of) const {
-    return node * static_cast<std::size_t>(fields_.n_fields) + of.field;
+    return node * as_size(fields_.n_fields) + of.field;
   }
 
   std::size_t n_nodes_;

@@ -11,6 +11,8 @@
 #include <map>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -27,7 +29,7 @@ TriangleSurface surface_of(const ClosedShells& all, const Shell& shell) {
       const auto [place, is_new] = number_of.emplace(node, points.size());
       triangle.push_back(place->second);
       if (!is_new) continue;
-      const Point& p = all.points[static_cast<std::size_t>(node)];
+      const Point& p = all.points[as_size(node)];
       points.emplace_back(p[0], p[1], p[2]);
     }
   }
@@ -53,7 +55,7 @@ void append_shells(const TriangleSurface& surface, const std::string& name, Clos
     std::size_t k = 0;
     for (const TriangleSurface::Vertex_index v :
          CGAL::vertices_around_face(surface.halfedge(face), surface)) {
-      const auto [place, is_new] = number_of.emplace(v, static_cast<Index>(all.points.size()));
+      const auto [place, is_new] = number_of.emplace(v, as_index(all.points.size()));
       if (is_new) {
         const Kernel::Point_3& p = surface.point(v);
         all.points.push_back({p.x(), p.y(), p.z()});

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -35,9 +36,9 @@ std::optional<Shape> shape_of_abaqus_type(std::string_view type) {
     // their order.
     std::string_view rest = type.substr(family.prefix.size());
     int digits = 0, number = 0;
-    while (static_cast<std::size_t>(digits) < rest.size() &&
-           std::isdigit(static_cast<unsigned char>(rest[static_cast<std::size_t>(digits)])) != 0)
-      number = 10 * number + (rest[static_cast<std::size_t>(digits++)] - '0');
+    while (as_size(digits) < rest.size() &&
+           std::isdigit(static_cast<unsigned char>(rest[as_size(digits)])) != 0)
+      number = 10 * number + (rest[as_size(digits++)] - '0');
     if (digits == 0) continue;
     if (family.prefix == "B") {  // B31: in space, linear; B32: quadratic
       if (digits != 2 || number % 10 > 2) return std::nullopt;
@@ -61,7 +62,7 @@ int n_abaqus_faces(Shape shape) {
 std::optional<int> face_of_abaqus_label(Shape shape, int label) {
   if (label < 1 || label > n_abaqus_faces(shape)) return std::nullopt;
   const Places faces = row_of(shape).abaqus_faces;
-  return faces.empty() ? label - 1 : faces[static_cast<std::size_t>(label - 1)];
+  return faces.empty() ? label - 1 : faces[as_size(label - 1)];
 }
 
 }  // namespace solidus::mesh

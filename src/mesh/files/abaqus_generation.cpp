@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mesh/local_system.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -70,7 +71,7 @@ class Generator {
 
  private:
   const Point& place(GlobalIndex number, const SourceLocation& at) const {
-    return scope_.x[static_cast<std::size_t>(scope_.node(number, at))];
+    return scope_.x[as_size(scope_.node(number, at))];
   }
   GlobalIndex number_of(const std::string& parameter) const {
     return AbaqusLine{keyword_.at, {keyword_.required(parameter)}}.integer(0);
@@ -80,8 +81,7 @@ class Generator {
     const auto there = scope_.node_at.find(number);
     if (there == scope_.node_at.end())
       scope_.add_node(number, x, at);
-    else if (length_of(difference(scope_.x[static_cast<std::size_t>(there->second)], x)) >
-             1e-9 * (length_of(x) + unit_))
+    else if (length_of(difference(scope_.x[as_size(there->second)], x)) > 1e-9 * (length_of(x) + unit_))
       throw InputError(at, "*" + keyword_.name + " makes node " + std::to_string(number) +
                                ", which is there already at another place");
     add_to(scope_.node_sets, set, number);
@@ -224,7 +224,7 @@ void Generator::copy_element(const AbaqusElement& original, GlobalIndex node_shi
                              const char* set, const SourceLocation& at) {
   AbaqusElement copy{original.shape, {}, original.number + element_shift};
   for (const Index n : original.nodes)
-    copy.nodes.push_back(scope_.node(scope_.node_number[static_cast<std::size_t>(n)] + node_shift, at));
+    copy.nodes.push_back(scope_.node(scope_.node_number[as_size(n)] + node_shift, at));
   add_to(scope_.element_sets, set, copy.number);
   scope_.add_element(std::move(copy), at);
 }
@@ -235,7 +235,7 @@ void Generator::rows_of_elements(const AbaqusLine& line) {
   if (found == scope_.element_at.end())
     line.fail("there is no element " + std::to_string(number) + " up to here");
   // The master element is copied by value, because the list grows meanwhile.
-  const AbaqusElement master = scope_.elements[static_cast<std::size_t>(found->second)];
+  const AbaqusElement master = scope_.elements[as_size(found->second)];
   // A row, rows in a layer, layers: how many, and by how much nodes and elements rise from one to the next.
   std::array<std::array<GlobalIndex, 3>, 3> rise{};
   double all = 1;
@@ -267,7 +267,7 @@ void Generator::copy_elements() {
     const auto found = scope_.element_at.find(number);
     if (found == scope_.element_at.end())
       throw InputError(keyword_.at, "there is no element " + std::to_string(number) + " up to here");
-    const AbaqusElement original = scope_.elements[static_cast<std::size_t>(found->second)];
+    const AbaqusElement original = scope_.elements[as_size(found->second)];
     copy_element(original, node_shift, element_shift, "NEW SET", keyword_.at);
   }
 }

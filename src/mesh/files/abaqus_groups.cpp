@@ -8,6 +8,7 @@
 #include "mesh/files/abaqus_elements.hpp"
 #include "mesh/files/abaqus_scope.hpp"
 #include "mesh/files/split_cells.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -52,7 +53,7 @@ class Groups {
   void add_nodes();
   Found find(std::size_t scope, const std::vector<NumberRange>& ranges, bool nodes) const;
   const AbaqusElement& element(const std::pair<std::size_t, Index>& at) const {
-    return scopes_[at.first].elements[static_cast<std::size_t>(at.second)];
+    return scopes_[at.first].elements[as_size(at.second)];
   }
   std::vector<Index> nodes_of(std::size_t scope, const std::vector<Index>& local) const {
     std::vector<Index> nodes;
@@ -104,7 +105,7 @@ void Groups::add_nodes() {
   std::set<GlobalIndex> taken;
   const bool several = scopes_.size() > 2 || (scopes_.size() > 1 && !scopes_[0].x.empty());
   for (const AbaqusScope& scope : scopes_) {
-    first_node_.push_back(static_cast<Index>(mesh_.x.size()));
+    first_node_.push_back(as_index(mesh_.x.size()));
     GlobalIndex rise = 0;
     // Numbers are raised by a power of ten, so that a user recognises the old one in the new one.
     if (several) {
@@ -139,7 +140,7 @@ Found Groups::find(std::size_t scope, const std::vector<NumberRange>& ranges, bo
   Found found;
   for (const NumberRange& r : ranges) {
     // A range belongs to the scope that it was written in, or to the instance that it names.
-    const std::size_t of = r.scope == 0 ? scope : static_cast<std::size_t>(r.scope);
+    const std::size_t of = r.scope == 0 ? scope : as_size(r.scope);
     const auto& at = nodes ? scopes_[of].node_at : scopes_[of].element_at;
     const std::size_t before = found.members.size();
     const auto n_all = static_cast<GlobalIndex>(at.size());
@@ -173,7 +174,7 @@ void Groups::add_element_set(std::size_t scope, const std::string& key, const Ab
   RawGroup group{0, {}};
   for (const auto& at : found.members) {
     group.dimension = std::max(group.dimension, mesh::dimension(element(at).shape));
-    named_[at.first][static_cast<std::size_t>(at.second)] = 1;
+    named_[at.first][as_size(at.second)] = 1;
   }
   // A set of everything means the elements of highest dimension in it.
   for (const auto& at : found.members) {
@@ -238,7 +239,7 @@ void Groups::add_surface(std::size_t scope, const std::string& key, const Abaqus
       const std::span<const int> of_split = face_of_split_cell(e.shape, *face);
       std::vector<Index> nodes;
       for (const int a : of_split.empty() ? face_nodes(e.shape, *face) : of_split)
-        nodes.push_back(first_node_[at.first] + e.nodes[static_cast<std::size_t>(a)]);
+        nodes.push_back(first_node_[at.first] + e.nodes[as_size(a)]);
       Shape shape = face_shape(e.shape);
       if (!of_split.empty()) shape = of_split.size() == 3 ? Shape::tri3 : Shape::quad4;
       add(group, shape, nodes, e.number + rise_[at.first]);
@@ -256,7 +257,7 @@ void Groups::add_node_set(std::size_t scope, const std::string& key, const Abaqu
   if (set.internal) return;
   RawGroup group{0, {}};
   for (const auto& [of, n] : found.members)
-    add(group, Shape::point1, {first_node_[of] + n}, scopes_[of].node_number[static_cast<std::size_t>(n)]);
+    add(group, Shape::point1, {first_node_[of] + n}, scopes_[of].node_number[as_size(n)]);
   add_group(name_in_mesh(scope, set.name,
                          [&](const AbaqusScope& s) {
                            const auto other = s.node_sets.find(key);

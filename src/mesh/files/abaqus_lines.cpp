@@ -7,6 +7,7 @@
 #include "mesh/files/abaqus_elements.hpp"
 #include "mesh/files/abaqus_generation.hpp"
 #include "mesh/files/abaqus_reader.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -34,7 +35,7 @@ void AbaqusReader::node_line(const AbaqusLine& line) {
 void AbaqusReader::element_line(const AbaqusLine& line) {
   // The nodes of an element may go on in the next line; it is complete with all of them.
   for (std::size_t i = 0; i < line.parts.size(); ++i) pending_.push_back(line.integer(i));
-  const auto nn = static_cast<std::size_t>(node_count(shape_));
+  const auto nn = as_size(node_count(shape_));
   if (pending_.size() < nn + 1) return;
   if (pending_.size() > nn + 1)
     line.fail("element " + std::to_string(pending_[0]) + " has more than the " + std::to_string(nn) +
@@ -42,13 +43,12 @@ void AbaqusReader::element_line(const AbaqusLine& line) {
   AbaqusElement e{shape_, {}, pending_[0]};
   const auto order = abaqus_node_order(shape_);
   for (std::size_t a = 0; a < nn; ++a)
-    e.nodes.push_back(
-        scope().node(pending_[1 + (order.empty() ? a : static_cast<std::size_t>(order[a]))], at_));
+    e.nodes.push_back(scope().node(pending_[1 + (order.empty() ? a : as_size(order[a]))], at_));
   if (shape_ == Shape::line3) {  // trusses and beams differ in where they put the mid node
     const auto off_middle = [&](std::size_t mid) {
       double d = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        const auto c = [&](std::size_t a) { return scope().x[static_cast<std::size_t>(e.nodes[a % 3])][i]; };
+        const auto c = [&](std::size_t a) { return scope().x[as_size(e.nodes[a % 3])][i]; };
         d += std::abs(c(mid) - 0.5 * (c(mid + 1) + c(mid + 2)));
       }
       return d;
@@ -73,7 +73,7 @@ std::vector<NumberRange> AbaqusReader::members(const std::string& text, AbaqusSe
   if (const std::string* instance = keyword_.find("INSTANCE")) of = instance_named(*instance);
   std::string member = text;
   const auto own = [&](const std::string& name) {
-    const AbaqusSets& there = of == 0 ? scope().*sets : scopes_[static_cast<std::size_t>(of)].*sets;
+    const AbaqusSets& there = of == 0 ? scope().*sets : scopes_[as_size(of)].*sets;
     const auto set = there.find(upper(name));
     return set == there.end() ? nullptr : &set->second;
   };
@@ -121,10 +121,10 @@ void AbaqusReader::nodes_of_elements(AbaqusSet& set) {
   const AbaqusLine line{at_, {}};
   std::set<std::pair<int, GlobalIndex>> numbers;
   for (const NumberRange& r : members(keyword_.required("ELSET"), &AbaqusScope::element_sets, line)) {
-    const AbaqusScope& of = r.scope == 0 ? scope() : scopes_[static_cast<std::size_t>(r.scope)];
+    const AbaqusScope& of = r.scope == 0 ? scope() : scopes_[as_size(r.scope)];
     for (const AbaqusElement& e : of.elements)
       if (e.number >= r.first && e.number <= r.last && (e.number - r.first) % r.step == 0)
-        for (const Index n : e.nodes) numbers.insert({r.scope, of.node_number[static_cast<std::size_t>(n)]});
+        for (const Index n : e.nodes) numbers.insert({r.scope, of.node_number[as_size(n)]});
   }
   for (const auto& [of, number] : numbers) set.add(number, of);
 }

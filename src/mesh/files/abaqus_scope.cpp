@@ -3,6 +3,7 @@
 #include "mesh/files/abaqus_scope.hpp"
 
 #include "mesh/files/abaqus_deck.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -27,7 +28,7 @@ AbaqusSet& set_of(AbaqusSets& sets, const std::string& name, const SourceLocatio
 }
 
 void AbaqusScope::add_node(GlobalIndex number, const Point& place, const SourceLocation& where) {
-  if (!node_at.emplace(number, static_cast<Index>(x.size())).second)
+  if (!node_at.emplace(number, as_index(x.size())).second)
     throw InputError(where, "node " + std::to_string(number) + " is defined twice",
                      "one numbering in the deck, or in each *PART");
   x.push_back(place);
@@ -35,7 +36,7 @@ void AbaqusScope::add_node(GlobalIndex number, const Point& place, const SourceL
 }
 
 void AbaqusScope::add_element(AbaqusElement element, const SourceLocation& where) {
-  if (!element_at.emplace(element.number, static_cast<Index>(elements.size())).second)
+  if (!element_at.emplace(element.number, as_index(elements.size())).second)
     throw InputError(where, "element " + std::to_string(element.number) + " is defined twice");
   elements.push_back(std::move(element));
 }

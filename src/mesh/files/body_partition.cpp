@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "mesh/surfaces/vertex_sets.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -52,7 +53,7 @@ Candidates candidates_of(const RawMesh& mesh, const NamePreference& preference) 
   std::size_t set = 0;
   for (Candidate& candidate : result.all) {
     for (Index& member : candidate.members) {
-      const auto original = static_cast<std::size_t>(first[set]);
+      const auto original = as_size(first[set]);
       number[set] = original == set ? result.n_elements++ : number[original];
       member = number[set++];
     }
@@ -67,8 +68,7 @@ Candidates candidates_of(const RawMesh& mesh, const NamePreference& preference) 
 
 class Choice {
  public:
-  Choice(const std::vector<Candidate>& all, Index n_elements)
-      : all_(all), taken_(static_cast<std::size_t>(n_elements), -1) {}
+  Choice(const std::vector<Candidate>& all, Index n_elements) : all_(all), taken_(as_size(n_elements), -1) {}
 
   /// Takes groups by the preference of their names, and among equals the largest first.
   /// @param classes  whether names of preference 0 and 1 come after each other, or together
@@ -108,14 +108,14 @@ class Choice {
       std::size_t free = 0;
       Index other = -1;
       for (const Index e : c.members)
-        if (const Index t = taken_[static_cast<std::size_t>(e)]; t < 0)
+        if (const Index t = taken_[as_size(e)]; t < 0)
           ++free;
         else
           other = t;
       if (free > 0 && other >= 0)
         return fmt::format(
             "the sets '{}' and '{}' have elements in common, and {} elements of '{}' are in no other set",
-            c.name, all_[static_cast<std::size_t>(other)].name, free, c.name);
+            c.name, all_[as_size(other)].name, free, c.name);
     }
     return "sets of elements overlap";
   }
@@ -134,16 +134,15 @@ class Choice {
     for (std::size_t k = 0; k < all_.size(); ++k) {
       if (k == i || rank(k) < rank(i) || all_[k].members.size() >= all_[i].members.size()) continue;
       if (!inside(all_[k].members, all_[i].members)) continue;
-      for (const Index e : all_[k].members)
-        n += std::exchange(filled[static_cast<std::size_t>(e)], 1) == 0 ? 1 : 0;
+      for (const Index e : all_[k].members) n += std::exchange(filled[as_size(e)], 1) == 0 ? 1 : 0;
     }
     return n == all_[i].members.size();
   }
 
   void take(std::size_t i) {
     for (const Index e : all_[i].members)
-      if (taken_[static_cast<std::size_t>(e)] >= 0) return;
-    for (const Index e : all_[i].members) taken_[static_cast<std::size_t>(e)] = static_cast<Index>(i);
+      if (taken_[as_size(e)] >= 0) return;
+    for (const Index e : all_[i].members) taken_[as_size(e)] = as_index(i);
     chosen_.push_back(i);
   }
 
@@ -151,9 +150,8 @@ class Choice {
     // The bodies that hold some of its elements are named in the reason.
     std::vector<std::string> holders;
     for (const std::size_t k : chosen_) {
-      const bool any = std::ranges::any_of(all_[i].members, [&](Index e) {
-        return taken_[static_cast<std::size_t>(e)] == static_cast<Index>(k);
-      });
+      const bool any =
+          std::ranges::any_of(all_[i].members, [&](Index e) { return taken_[as_size(e)] == as_index(k); });
       if (any) holders.push_back("'" + all_[k].name + "'");
     }
     std::ranges::sort(holders);
@@ -196,7 +194,7 @@ int plain_preference(const std::string& name) {
 BodyPartition partition_of(const RawMesh& mesh, const std::string& path, const NamePreference& preference) {
   const Candidates candidates = candidates_of(mesh, preference);
   Choice choice(candidates.all, candidates.n_elements);
-  if (candidates.n_entries == static_cast<std::size_t>(candidates.n_elements)) {
+  if (candidates.n_entries == as_size(candidates.n_elements)) {
     BodyPartition all;
     for (const Candidate& c : candidates.all) all.bodies.push_back(c.name);
     return all;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "mesh/files/built_in_formats.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -62,7 +63,7 @@ std::string head_of(const std::string& path) {
   std::array<char, 4096> bytes{};
   std::ifstream file(path, std::ios::binary);
   file.read(bytes.data(), bytes.size());
-  return {bytes.data(), static_cast<std::size_t>(file.gcount())};
+  return {bytes.data(), as_size(file.gcount())};
 }
 
 }  // namespace

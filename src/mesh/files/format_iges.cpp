@@ -3,6 +3,7 @@
 #include <map>
 
 #include "mesh/files/file_format.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -34,7 +35,7 @@ std::vector<std::string> iges_parameters(const std::string& path) {
     // A number and an H, and as many letters as the number says.
     if (text[i] == 'H' && !word.empty() && word.find_first_not_of("0123456789") == std::string::npos &&
         word.size() < 6) {
-      const auto n = static_cast<std::size_t>(std::stoi(word));
+      const auto n = as_size(std::stoi(word));
       word = text.substr(i + 1, n);
       i += n;
       if (parameters.empty() && n == 1) separator = word[0];

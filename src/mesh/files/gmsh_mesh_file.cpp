@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "mesh/files/gmsh_elements.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -45,8 +46,7 @@ class Bytes {
     const auto first = at_;
     while (at_ < size() && !blank(content_[index()])) ++at_;
     if (first == at_) fail("the file ends too early");
-    return std::string_view(content_).substr(static_cast<std::size_t>(first),
-                                             static_cast<std::size_t>(at_ - first));
+    return std::string_view(content_).substr(as_size(first), as_size(at_ - first));
   }
   /// The rest of the line, without its end.
   std::string_view line() {
@@ -83,7 +83,7 @@ class Bytes {
   std::size_t count(std::int64_t n, std::size_t bytes) const {
     if (n < 0 || static_cast<std::uint64_t>(n) > static_cast<std::uint64_t>(size() - at_) / bytes)
       fail("the file says that it has " + std::to_string(n) + " entries here, more than it has room for");
-    return static_cast<std::size_t>(n);
+    return as_size(n);
   }
   void expect(std::string_view name) {
     if (const std::string_view found = word(); found != name)
@@ -102,7 +102,7 @@ class Bytes {
   static bool blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
   std::string::const_iterator begin() const { return content_.begin(); }
   std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(content_.size()); }
-  std::size_t index() const { return static_cast<std::size_t>(at_); }
+  std::size_t index() const { return as_size(at_); }
   void skip_blanks() {
     while (at_ < size() && blank(content_[index()])) ++at_;
   }
@@ -399,7 +399,7 @@ RawMesh Reader::mesh() {
   // In version 2 nodes that no element uses are left out: they are points of the geometry.
   for (const auto& [tag, x] : nodes_) {
     if (!version_4_ && !used.contains(tag)) continue;
-    index.emplace(tag, static_cast<Index>(mesh.x.size()));
+    index.emplace(tag, as_index(mesh.x.size()));
     mesh.x.push_back({unit_ * x[0], unit_ * x[1], unit_ * x[2]});
     mesh.input_node.push_back(static_cast<GlobalIndex>(tag));
   }

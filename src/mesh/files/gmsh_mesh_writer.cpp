@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -40,7 +41,7 @@ std::size_t count_elements(const std::vector<NumberedGroup>& groups) {
   std::size_t count = 0;
   for (const NumberedGroup& g : groups)
     for (const RawBlock& block : g.group->blocks)
-      count += block.nodes.size() / static_cast<std::size_t>(node_count(block.shape));
+      count += block.nodes.size() / as_size(node_count(block.shape));
   return count;
 }
 
@@ -63,7 +64,7 @@ std::string gmsh_mesh_text(const RawMesh& mesh, const std::set<std::string>& lef
   std::size_t number = 0;
   for (const NumberedGroup& g : groups)
     for (const RawBlock& block : g.group->blocks) {
-      const auto nodes = static_cast<std::size_t>(node_count(block.shape));
+      const auto nodes = as_size(node_count(block.shape));
       for (std::size_t at = 0; at + nodes <= block.nodes.size(); at += nodes) {
         fmt::format_to(out, "{} {} 2 {} {}", ++number, gmsh_type(block.shape), g.number, g.number);
         for (std::size_t a = 0; a < nodes; ++a) fmt::format_to(out, " {}", block.nodes[at + a] + 1);

@@ -11,6 +11,7 @@
 #include "mesh/files/abaqus_elements.hpp"
 #include "mesh/files/nastran_cards.hpp"
 #include "mesh/files/nastran_systems.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -109,7 +110,7 @@ void Reader::take(const NastranCard& card) {
   if (name == "GRID") {
     const GlobalIndex number = card.integer(0);
     if (number <= 0) card.fail("a GRID has no number above zero");
-    if (!grid_at_.emplace(number, static_cast<Index>(grids_.size())).second)
+    if (!grid_at_.emplace(number, as_index(grids_.size())).second)
       card.fail("GRID " + std::to_string(number) + " is defined twice");
     grids_.push_back({card, {}, false});
     return;
@@ -174,8 +175,7 @@ void Reader::take_name(std::string_view comment) {
 void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
   Element e{kind.first, card.integer(0), card.integer(1, 0), {}, card.at};
   // How many nodes the card has decides between first and second order.
-  const auto corners = static_cast<std::size_t>(node_count(kind.first)),
-             all = static_cast<std::size_t>(node_count(kind.second));
+  const auto corners = as_size(node_count(kind.first)), all = as_size(node_count(kind.second));
   // The second order needs all of its nodes; without any the element is of first order.
   std::size_t given = 0;
   for (std::size_t a = 0; a < all; ++a)
@@ -199,7 +199,7 @@ void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
 Point Reader::place(GlobalIndex number, const NastranCard& user) {
   const auto found = grid_at_.find(number);
   if (found == grid_at_.end()) user.fail(user.name + ": there is no GRID " + std::to_string(number));
-  Grid& grid = grids_[static_cast<std::size_t>(found->second)];
+  Grid& grid = grids_[as_size(found->second)];
   if (grid.x) return *grid.x;
   if (grid.being_found) grid.card.fail("GRID " + std::to_string(number) + " is given in a system of its own");
   grid.being_found = true;
@@ -264,8 +264,8 @@ void Reader::make_groups(const std::string& path) {
     if (block == group.blocks.end())
       block = group.blocks.insert(group.blocks.end(), RawBlock{e.shape, {}, {}});
     const auto order = abaqus_node_order(e.shape);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(node_count(e.shape)); ++a) {
-      const std::size_t of_abaqus = order.empty() ? a : static_cast<std::size_t>(order[a]);
+    for (std::size_t a = 0; a < as_size(node_count(e.shape)); ++a) {
+      const std::size_t of_abaqus = order.empty() ? a : as_size(order[a]);
       const GlobalIndex node = e.nodes[nastran_place(e.shape, of_abaqus)];
       const auto found = grid_at_.find(node);
       if (found == grid_at_.end())

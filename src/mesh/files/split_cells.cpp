@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mesh/tetrahedra.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -67,7 +68,7 @@ std::vector<Index> face_corners(Corners cell, const std::array<int, 4>& face) {
   std::vector<Index> corners;
   for (const int a : face) {
     if (a < 0) continue;
-    const Index node = cell[static_cast<std::size_t>(a)];
+    const Index node = cell[as_size(a)];
     if (std::ranges::find(corners, node) == corners.end()) corners.push_back(node);
   }
   return corners;
@@ -86,8 +87,7 @@ std::vector<Triangle> triangles_of(std::vector<Index> corners) {
 struct HashOfFace {
   std::size_t operator()(const FaceKey& key) const {
     std::size_t hash = 0;
-    for (const Index node : key)
-      hash = 1099511628211U * (hash ^ static_cast<std::size_t>(static_cast<std::uint32_t>(node)));
+    for (const Index node : key) hash = 1099511628211U * (hash ^ as_size(static_cast<std::uint32_t>(node)));
     return hash;
   }
 };
@@ -113,8 +113,8 @@ class Splitter {
     const RawBlock* block;
     std::size_t at;
     Corners corners() const {
-      const auto all = static_cast<std::size_t>(node_count(block->shape));
-      return std::span(block->nodes).subspan(all * at, static_cast<std::size_t>(vertex_count(block->shape)));
+      const auto all = as_size(node_count(block->shape));
+      return std::span(block->nodes).subspan(all * at, as_size(vertex_count(block->shape)));
     }
     bool operator<(const Cell& other) const {
       return block != other.block ? std::less<>()(block, other.block) : at < other.at;
@@ -137,7 +137,7 @@ class Splitter {
     Point middle{};
     for (const Index node : corners)
       for (std::size_t i = 0; i < 3; ++i)
-        middle[i] += mesh_.x[static_cast<std::size_t>(node)][i] / static_cast<double>(corners.size());
+        middle[i] += mesh_.x[as_size(node)][i] / static_cast<double>(corners.size());
     throw InputError(
         {path_},
         fmt::format("element {} ({}) at ({:.6g}, {:.6g}, {:.6g}) m {}", cell.block->input_element[cell.at],
@@ -212,7 +212,7 @@ void Splitter::spread() {
 void Splitter::add_parts(const Cell& cell, RawBlock& to) const {
   const Corners corners = cell.corners();
   const Index lowest = std::ranges::min(corners);
-  const auto x = [&](Index node) -> const Point& { return mesh_.x[static_cast<std::size_t>(node)]; };
+  const auto x = [&](Index node) -> const Point& { return mesh_.x[as_size(node)]; };
   // From the lowest node a tetrahedron to each triangle of the faces that do not have it, so that neighbours
   // cut their common face alike.
   std::size_t n_positive = 0, n_parts = 0;
@@ -239,7 +239,7 @@ void Splitter::split_blocks() {
     std::vector<RawBlock> kept;
     // Cells that are split leave their block; their parts join the tetrahedra of the group.
     for (RawBlock& block : group.blocks) {
-      const auto all = static_cast<std::size_t>(node_count(block.shape));
+      const auto all = as_size(node_count(block.shape));
       RawBlock whole{block.shape, {}, {}};
       for (std::size_t at = 0; at < block.input_element.size(); ++at)
         if (const Cell cell{&block, at}; is_split(cell)) {
@@ -345,8 +345,8 @@ void split_cells(RawMesh& mesh, const std::string& path) {
 std::span<const int> face_of_split_cell(Shape shape, int face) {
   if (shape != Shape::wedge6 && shape != Shape::pyramid5) return {};
   const Faces faces = faces_of(shape);
-  if (face < 0 || static_cast<std::size_t>(face) >= faces.size()) return {};
-  const std::array<int, 4>& corners = faces[static_cast<std::size_t>(face)];
+  if (face < 0 || as_size(face) >= faces.size()) return {};
+  const std::array<int, 4>& corners = faces[as_size(face)];
   return std::span(corners).first(corners[3] < 0 ? 3 : 4);
 }
 

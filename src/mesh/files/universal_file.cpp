@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -84,7 +85,7 @@ std::span<const int> order_of(Shape shape) {
     case Shape::hex20:
       return k_hex20;
     default:
-      return std::span(k_same).first(static_cast<std::size_t>(node_count(shape)));
+      return std::span(k_same).first(as_size(node_count(shape)));
   }
 }
 
@@ -274,7 +275,7 @@ void Reader::add_node(GlobalIndex number, GlobalIndex system, std::size_t first)
     fail(fmt::format("node {} is given in the coordinate system {}, which is not the global one", number,
                      system),
          "a file with nodes in global coordinates");
-  if (!node_at_.emplace(number, static_cast<Index>(mesh_.x.size())).second)
+  if (!node_at_.emplace(number, as_index(mesh_.x.size())).second)
     fail(fmt::format("node {} is defined twice", number));
   mesh_.x.push_back({unit_ * real(first), unit_ * real(first + 1), unit_ * real(first + 2)});
   mesh_.input_node.push_back(number);
@@ -319,9 +320,9 @@ void Reader::elements(bool old) {
       const auto node = node_at_.find(given[i]);
       if (node == node_at_.end())
         fail(fmt::format("element {} refers to node {}, which is not there", number, given[i]));
-      e.nodes[static_cast<std::size_t>(order[i])] = node->second;
+      e.nodes[as_size(order[i])] = node->second;
     }
-    if (!element_at_.emplace(number, static_cast<Index>(elements_.size())).second)
+    if (!element_at_.emplace(number, as_index(elements_.size())).second)
       fail(fmt::format("element {} is defined twice", number));
     elements_.push_back(e);
   }
@@ -390,13 +391,11 @@ void Reader::make_groups() {
     members.erase(std::unique(members.begin(), members.end()), members.end());
     RawGroup of_elements{0, {}};
     for (const Index i : members) {
-      named[static_cast<std::size_t>(i)] = 1;
-      of_elements.dimension =
-          std::max(of_elements.dimension, mesh::dimension(elements_[static_cast<std::size_t>(i)].shape));
+      named[as_size(i)] = 1;
+      of_elements.dimension = std::max(of_elements.dimension, mesh::dimension(elements_[as_size(i)].shape));
     }
     for (const Index i : members)
-      if (const Element& e = elements_[static_cast<std::size_t>(i)];
-          mesh::dimension(e.shape) == of_elements.dimension)
+      if (const Element& e = elements_[as_size(i)]; mesh::dimension(e.shape) == of_elements.dimension)
         add(e, of_elements);
     add_group(group.name, std::move(of_elements));
     RawGroup of_nodes{0, {}};

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -14,7 +15,7 @@ int vtk_cell_type(Shape shape) {
 std::span<const int> vtk_node_order(Shape shape) {
   static constexpr std::array<int, 8> k_same = {0, 1, 2, 3, 4, 5, 6, 7};
   const ShapeRow& row = row_of(shape);
-  return row.vtk_nodes.empty() ? std::span(k_same).first(static_cast<std::size_t>(row.nodes)) : row.vtk_nodes;
+  return row.vtk_nodes.empty() ? std::span(k_same).first(as_size(row.nodes)) : row.vtk_nodes;
 }
 
 }  // namespace solidus::mesh

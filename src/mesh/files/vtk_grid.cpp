@@ -16,6 +16,7 @@
 
 #include "mesh/files/gmsh_elements.hpp"
 #include "mesh/files/vtk_cells.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -176,8 +177,7 @@ RawMesh mesh_of_grid(const std::string& path, const VtkGrid& grid, double unit_i
     if (cells.offsets[c] - begin != parts->corners[0].size())
       throw InputError({path}, "the file is damaged: cell " + std::to_string(c) +
                                    " has another number of corners than its type");
-    for (const int corner : parts->corners[0])
-      block->nodes.push_back(cells.corners[begin + static_cast<std::size_t>(corner)]);
+    for (const int corner : parts->corners[0]) block->nodes.push_back(cells.corners[begin + as_size(corner)]);
     block->input_element.push_back(static_cast<GlobalIndex>(c) + 1);
   }
   // Groups of the highest dimension are bodies, those of one less surfaces; anything below is dropped.

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "mesh/files/vtk_grid.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -298,9 +299,8 @@ bool Reader::attribute(const std::string& kind, std::size_t n, bool of_cells) {
     const std::string name = word();
     const NumberType& of_numbers = type(word());
     const std::string rest(line());
-    const std::size_t components = rest.find_first_of("1234") == std::string::npos
-                                       ? 1
-                                       : static_cast<std::size_t>(rest[rest.find_first_of("1234")] - '0');
+    const std::size_t components =
+        rest.find_first_of("1234") == std::string::npos ? 1 : as_size(rest[rest.find_first_of("1234")] - '0');
     const std::size_t before = at_;
     if (skip_blanks() && lower(text_.substr(at_, 12)) == "lookup_table") {
       word();

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "mesh/files/vtk_cells.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -39,10 +40,9 @@ std::optional<CellParts> parts_of(int type) {
   for (const Shape shape : {Shape::point1, Shape::line2, Shape::line3, Shape::tri3, Shape::tri6, Shape::quad4,
                             Shape::quad8, Shape::tet4, Shape::tet10, Shape::hex8, Shape::hex20}) {
     if (vtk_cell_type(shape) != type) continue;
-    CellParts parts{shape, {std::vector<int>(static_cast<std::size_t>(node_count(shape)))}};
+    CellParts parts{shape, {std::vector<int>(as_size(node_count(shape)))}};
     const std::span<const int> order = vtk_node_order(shape);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      parts.corners[0][static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    for (std::size_t i = 0; i < order.size(); ++i) parts.corners[0][as_size(order[i])] = static_cast<int>(i);
     return parts;
   }
   if (type == 8) return CellParts{Shape::quad4, {{0, 1, 3, 2}}};

@@ -9,6 +9,7 @@
 #include "mesh/gmsh/closed_solids.hpp"
 #include "mesh/gmsh/feeder_solids.hpp"
 #include "mesh/gmsh/geometry_groups.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -140,7 +141,7 @@ class PartMaker {
   }
 
   void halve() {
-    const auto axis = static_cast<std::size_t>(geometry_.symmetry->axis);
+    const auto axis = as_size(geometry_.symmetry->axis);
     // A box that reaches from outside to the plane is what is kept of each body.
     Extent box = extent_of(all_volumes());
     const double margin = box.diagonal(), at = geometry_.symmetry->at / unit_;
@@ -249,7 +250,7 @@ class PartMaker {
   /// What of a volume lies in the half that is kept; all of it without symmetry.
   int kept_half(int volume) {
     if (!geometry_.symmetry) return volume;
-    const auto axis = static_cast<std::size_t>(geometry_.symmetry->axis);
+    const auto axis = as_size(geometry_.symmetry->axis);
     occ::synchronize();
     Extent box = extent_of({{3, volume}});
     for (std::size_t i = 0; i < 3; ++i) {
@@ -277,8 +278,7 @@ class PartMaker {
       block_.low[i] -= low > 0 ? low : -k_slack;
       block_.high[i] += high > 0 ? high : -k_slack;
     }
-    if (geometry_.symmetry)
-      block_.high[static_cast<std::size_t>(geometry_.symmetry->axis)] = geometry_.symmetry->at / unit_;
+    if (geometry_.symmetry) block_.high[as_size(geometry_.symmetry->axis)] = geometry_.symmetry->at / unit_;
     return occ::addBox(block_.low[0], block_.low[1], block_.low[2], block_.high[0] - block_.low[0],
                        block_.high[1] - block_.low[1], block_.high[2] - block_.low[2]);
   }

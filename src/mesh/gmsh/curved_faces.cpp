@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -22,9 +24,6 @@ constexpr double k_most_bulge = 0.3;     ///< distance off an edge over its leng
 constexpr double k_least_volume = 0.8;   ///< share of its volume that an element keeps
 constexpr int k_rounds = 10;             ///< of halving displacements
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 Point minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
@@ -66,7 +65,7 @@ Bulges bulges(int face, const std::vector<Index>& triangles, double unit, const 
   std::vector<double> middles, nearest, parametric;
   for (const auto& [edge, unused] : bulge)
     for (std::size_t i = 0; i < 3; ++i)
-      middles.push_back(0.5 * (mesh.x[at(edge.first)][i] + mesh.x[at(edge.second)][i]) / unit);
+      middles.push_back(0.5 * (mesh.x[as_size(edge.first)][i] + mesh.x[as_size(edge.second)][i]) / unit);
   // Gmsh projects all middles at once.
   try {
     gmsh::model::getClosestPoint(2, face, middles, nearest, parametric);
@@ -76,7 +75,7 @@ Bulges bulges(int face, const std::vector<Index>& triangles, double unit, const 
   std::size_t m = 0;
   for (auto& [edge, vector] : bulge) {
     for (std::size_t i = 0; i < 3; ++i, ++m) vector[i] = unit * (nearest[m] - middles[m]);
-    const Point along = minus(mesh.x[at(edge.second)], mesh.x[at(edge.first)]);
+    const Point along = minus(mesh.x[as_size(edge.second)], mesh.x[as_size(edge.first)]);
     // A projection far away is one onto another part of the face.
     if (!(dot(vector, vector) <= k_most_bulge * k_most_bulge * dot(along, along))) vector = {};
   }
@@ -95,8 +94,8 @@ void look_at_face(int face, bool is_plane, double unit, const RawMesh& mesh,
   // Normals by area, and how far the face bulges over its triangles: the mean over their edges.
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
     const Index* node = triangles.data() + t;
-    const Point& x = mesh.x[at(node[0])];
-    Point normal = cross(minus(mesh.x[at(node[1])], x), minus(mesh.x[at(node[2])], x));
+    const Point& x = mesh.x[as_size(node[0])];
+    Point normal = cross(minus(mesh.x[as_size(node[1])], x), minus(mesh.x[as_size(node[2])], x));
     const double area = std::sqrt(dot(normal, normal));
     if (!(area > 0)) continue;
     for (double& c : normal) c /= area;
@@ -138,8 +137,8 @@ void merge(const FaceAtVertex& face, std::vector<FaceAtVertex>& faces) {
 }
 
 double volume(const std::vector<Point>& x, const Index* tet) {
-  const Point& o = x[at(tet[0])];
-  return dot(cross(minus(x[at(tet[1])], o), minus(x[at(tet[2])], o)), minus(x[at(tet[3])], o));
+  const Point& o = x[as_size(tet[0])];
+  return dot(cross(minus(x[as_size(tet[1])], o), minus(x[as_size(tet[2])], o)), minus(x[as_size(tet[3])], o));
 }
 
 /// The vertices at one place, of bodies that touch and have nodes of their own. They move together: otherwise
@@ -155,7 +154,7 @@ std::vector<Place> gather(const std::map<Index, Point>& displacement, const RawM
   std::map<std::array<long long, 3>, Place> places;
   for (const auto& [node, u] : displacement) {
     std::array<long long, 3> key{};
-    for (std::size_t i = 0; i < 3; ++i) key[i] = std::llround(mesh.x[at(node)][i] / k_same);
+    for (std::size_t i = 0; i < 3; ++i) key[i] = std::llround(mesh.x[as_size(node)][i] / k_same);
     Place& place = places[key];
     add(place.displacement, 1, u);
     place.nodes.push_back(node);
@@ -175,8 +174,8 @@ void move(std::vector<Place> places, RawMesh& mesh) {
   for (int round = 0; round <= k_rounds; ++round) {
     for (const Place& place : places)
       for (const Index node : place.nodes) {
-        mesh.x[at(node)] = before[at(node)];
-        add(mesh.x[at(node)], 1, place.displacement);
+        mesh.x[as_size(node)] = before[as_size(node)];
+        add(mesh.x[as_size(node)], 1, place.displacement);
       }
     // Tetrahedra that have lost too much of their volume take their vertices back half way.
     std::vector<char> thin(mesh.x.size(), 0);
@@ -188,12 +187,12 @@ void move(std::vector<Place> places, RawMesh& mesh) {
           const double was = volume(before, tet), is = volume(mesh.x, tet);
           if (is / was >= k_least_volume) continue;
           any = true;
-          for (std::size_t a = 0; a < 4; ++a) thin[at(tet[a])] = 1;
+          for (std::size_t a = 0; a < 4; ++a) thin[as_size(tet[a])] = 1;
         }
     if (!any) return;
     for (Place& place : places)
       if (std::any_of(place.nodes.begin(), place.nodes.end(),
-                      [&](Index node) { return thin[at(node)] != 0; }))
+                      [&](Index node) { return thin[as_size(node)] != 0; }))
         for (double& c : place.displacement) c *= round + 1 < k_rounds ? 0.5 : 0;
   }
 }

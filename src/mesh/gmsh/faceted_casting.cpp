@@ -19,6 +19,7 @@
 #include "mesh/making/meshing_outlook.hpp"
 #include "mesh/making/meshing_ways.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -92,10 +93,10 @@ class FacetedMaker {
       std::map<Index, std::size_t> tag_of;
       for (const auto& triangle : all_.shells[s].triangles)
         for (const Index i : triangle) {
-          const auto [place, is_new] = tag_of.emplace(i, static_cast<std::size_t>(i) + 1);
+          const auto [place, is_new] = tag_of.emplace(i, as_size(i) + 1);
           nodes.push_back(place->second);
           if (!is_new) continue;
-          const Point& p = all_.points[static_cast<std::size_t>(i)];
+          const Point& p = all_.points[as_size(i)];
           shell_at[p] = s;
           tags.push_back(place->second);
           x.insert(x.end(), p.begin(), p.end());

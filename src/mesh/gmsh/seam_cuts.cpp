@@ -12,6 +12,8 @@
 #include <map>
 #include <optional>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -76,7 +78,7 @@ int add_square(const Plane& plane, double half) {
   const auto smallest = std::min_element(plane.normal.begin(), plane.normal.end(),
                                          [](double a, double b) { return std::abs(a) < std::abs(b); });
   Point axis{};
-  axis[static_cast<std::size_t>(smallest - plane.normal.begin())] = 1;
+  axis[as_size(smallest - plane.normal.begin())] = 1;
   Point u = cross(plane.normal, axis);
   const double size = length(u);
   for (double& c : u) c /= size;

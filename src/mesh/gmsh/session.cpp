@@ -27,6 +27,7 @@
 #include "mesh/making/casting_geometry.hpp"
 #include "mesh/making/meshing_outlook.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -246,7 +247,7 @@ std::unordered_map<std::size_t, Index> read_nodes(double unit, RawMesh& mesh) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
   for (const std::size_t i : order) {
-    if (!index.emplace(tags[i], static_cast<Index>(mesh.x.size())).second) continue;
+    if (!index.emplace(tags[i], as_index(mesh.x.size())).second) continue;
     mesh.x.push_back({unit * x[3 * i], unit * x[3 * i + 1], unit * x[3 * i + 2]});
     mesh.input_node.push_back(static_cast<GlobalIndex>(tags[i]));
   }

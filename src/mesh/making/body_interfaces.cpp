@@ -7,22 +7,19 @@
 
 #include "mesh/surfaces/faces.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// The bodies at each node, in rising order. [raw node]
 std::vector<std::vector<int>> bodies_at_nodes(const RawMesh& mesh, const std::vector<std::string>& bodies) {
   std::vector<std::vector<int>> here(mesh.x.size());
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-    for (const RawBlock& block : mesh.groups.at(bodies[at(b)]).blocks)
+    for (const RawBlock& block : mesh.groups.at(bodies[as_size(b)]).blocks)
       for (const Index node : block.nodes)
-        if (here[at(node)].empty() || here[at(node)].back() != b) here[at(node)].push_back(b);
+        if (here[as_size(node)].empty() || here[as_size(node)].back() != b) here[as_size(node)].push_back(b);
   return here;
 }
 
@@ -46,7 +43,7 @@ FaceOwners owners_of_surfaces(const RawMesh& mesh, const std::vector<std::string
     if (group.dimension != mesh.dimension - 1) continue;
     for (const RawBlock& block : group.blocks) {
       const int nn = node_count(block.shape), nv = vertex_count(block.shape);
-      for (std::size_t f = 0; f < block.nodes.size(); f += static_cast<std::size_t>(nn))
+      for (std::size_t f = 0; f < block.nodes.size(); f += as_size(nn))
         owners.emplace(face_key(block.nodes.data() + f, nv), FaceOwner{});
     }
   }
@@ -62,9 +59,8 @@ struct Side {
 
 bool lies_in(const std::optional<HalfSpace>& plane, const SkinFace& face) {
   constexpr double k_flat = 0.999, k_near = 1e-3;  // of the face's size
-  if (!plane || face.normal[static_cast<std::size_t>(plane->axis)] < k_flat) return false;
-  return std::abs(face.centre[static_cast<std::size_t>(plane->axis)] - plane->at) <
-         k_near * std::sqrt(face.area);
+  if (!plane || face.normal[as_size(plane->axis)] < k_flat) return false;
+  return std::abs(face.centre[as_size(plane->axis)] - plane->at) < k_near * std::sqrt(face.area);
 }
 
 /// Finds for each face of the skins the body whose face has the same corners, as faces of bodies have that
@@ -124,14 +120,14 @@ void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const st
     for (std::size_t k = 0; k < part.size(); ++k) {
       if (part[k] == 0) continue;
       const auto found = of_part.find(part[k]);
-      Index node = found != of_part.end() ? found->second : static_cast<Index>(mesh.x.size());
+      Index node = found != of_part.end() ? found->second : as_index(mesh.x.size());
       if (found == of_part.end()) {
         const Point x = mesh.x[i];
         mesh.x.push_back(x);
         mesh.input_node.push_back(++next);
         of_part[part[k]] = node;
       }
-      copy[{static_cast<Index>(i), here[i][k]}] = node;
+      copy[{as_index(i), here[i][k]}] = node;
     }
   }
   // Elements of the bodies are renumbered first.
@@ -140,18 +136,17 @@ void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const st
     if (const auto found = copy.find({node, body}); found != copy.end()) node = found->second;
   };
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-    for (RawBlock& block : mesh.groups.at(bodies[at(b)]).blocks)
+    for (RawBlock& block : mesh.groups.at(bodies[as_size(b)]).blocks)
       for (Index& node : block.nodes) renumber(node, b);
   // Faces of surfaces follow the body that owns them; a face of no body keeps its nodes.
   for (auto& [name, group] : mesh.groups) {
     if (group.dimension != mesh.dimension - 1) continue;
     for (RawBlock& block : group.blocks) {
       const int nn = node_count(block.shape), nv = vertex_count(block.shape);
-      for (std::size_t f = 0; f < block.nodes.size(); f += static_cast<std::size_t>(nn)) {
+      for (std::size_t f = 0; f < block.nodes.size(); f += as_size(nn)) {
         const FaceOwner& owner = owners.at(face_key(block.nodes.data() + f, nv));
         if (owner.body < 0) continue;
-        for (std::size_t k = f; k < f + static_cast<std::size_t>(nn); ++k)
-          renumber(block.nodes[k], owner.body);
+        for (std::size_t k = f; k < f + as_size(nn); ++k) renumber(block.nodes[k], owner.body);
       }
     }
   }
@@ -198,21 +193,21 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
   for (const FacingWish& wish : wishes) {
     const std::array<int, 2> pair = {wish.bodies.first, wish.bodies.second};
     constexpr double k_share_of_edge = 0.25;
-    const double edge = std::min(mean_edge(skins[at(pair[0])]), mean_edge(skins[at(pair[1])]));
+    const double edge = std::min(mean_edge(skins[as_size(pair[0])]), mean_edge(skins[as_size(pair[1])]));
     const double distance = wish.distance > 0 ? wish.distance : k_share_of_edge * edge;
     std::array<Side, 2> sides;
     for (std::size_t s = 0; s < 2; ++s) {
-      const std::vector<SkinFace>& own = skins[at(pair[s])];
+      const std::vector<SkinFace>& own = skins[as_size(pair[s])];
       std::vector<SkinFace> others;
-      for (const std::size_t f : candidates(partner_of[at(pair[1 - s])], pair[s]))
-        others.push_back(skins[at(pair[1 - s])][f]);
+      for (const std::size_t f : candidates(partner_of[as_size(pair[1 - s])], pair[s]))
+        others.push_back(skins[as_size(pair[1 - s])][f]);
       const SkinSearch search(others, distance);
-      cover(own, candidates(partner_of[at(pair[s])], pair[1 - s]), search, sides[s],
-            faces_somebody[at(pair[s])]);
+      cover(own, candidates(partner_of[as_size(pair[s])], pair[1 - s]), search, sides[s],
+            faces_somebody[as_size(pair[s])]);
     }
     if (sides[0].faces.empty() || sides[1].faces.empty()) continue;
-    Facing facing{wish.bodies, names[at(pair[0])] + "_to_" + names[at(pair[1])],
-                  names[at(pair[1])] + "_to_" + names[at(pair[0])], distance};
+    Facing facing{wish.bodies, names[as_size(pair[0])] + "_to_" + names[as_size(pair[1])],
+                  names[as_size(pair[1])] + "_to_" + names[as_size(pair[0])], distance};
     facing.area_a = sides[0].area;
     facing.area_b = sides[1].area;
     facing.covered_a = sides[0].covered;

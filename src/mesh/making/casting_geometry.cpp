@@ -19,6 +19,7 @@
 #include "mesh/making/worst_tetrahedron.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/shape.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 
@@ -34,7 +35,7 @@ double least_quality(const RawMesh& mesh) {
   for (const auto& [name, group] : mesh.groups) {
     if (group.dimension != mesh.dimension) continue;
     for (const RawBlock& block : group.blocks) {
-      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      const auto n = as_size(node_count(block.shape));
       for (std::size_t e = 0; e < block.nodes.size(); e += n)
         least = std::min(least, std::abs(element_quality(mesh, block.shape, block.nodes.data() + e)));
     }

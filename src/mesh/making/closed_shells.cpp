@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "mesh/making/casting_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -56,13 +57,13 @@ class Welder {
           const auto found = cells_.find({here[0] + dx, here[1] + dy, here[2] + dz});
           if (found == cells_.end()) continue;
           for (const Index i : found->second) {
-            const Point d = minus(points_[static_cast<std::size_t>(i)], p);
+            const Point d = minus(points_[as_size(i)], p);
             if (dot(d, d) <= tolerance_ * tolerance_) return i;
           }
         }
     // A point that is near none is a new one, in its cell.
     points_.push_back(p);
-    const auto mine = static_cast<Index>(points_.size() - 1);
+    const auto mine = as_index(points_.size() - 1);
     cells_[here].push_back(mine);
     return mine;
   }
@@ -72,8 +73,7 @@ class Welder {
   using Cell = std::array<long, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const {
-      return static_cast<std::size_t>(c[0]) * 73856093U ^ static_cast<std::size_t>(c[1]) * 19349663U ^
-             static_cast<std::size_t>(c[2]) * 83492791U;
+      return as_size(c[0]) * 73856093U ^ as_size(c[1]) * 19349663U ^ as_size(c[2]) * 83492791U;
     }
   };
   double tolerance_;
@@ -95,8 +95,7 @@ Edge edge_of(const Facet& t, std::size_t k) {
 /// Two triangles at every edge.
 class Neighbours {
  public:
-  Neighbours(const std::vector<Facet>& triangles, const std::vector<Point>& points,
-             const std::string& path)
+  Neighbours(const std::vector<Facet>& triangles, const std::vector<Point>& points, const std::string& path)
       : points_(points) {
     // All edges of all triangles; how many meet at each tells whether the skin is closed.
     for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -126,8 +125,7 @@ class Neighbours {
     return two[0] == triangle ? two[1] : two[0];
   }
   std::string place(const Edge& edge) const {
-    const Point &a = points_[static_cast<std::size_t>(edge.first)],
-                &b = points_[static_cast<std::size_t>(edge.second)];
+    const Point &a = points_[as_size(edge.first)], &b = points_[as_size(edge.second)];
     char text[96];
     std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", (a[0] + b[0]) / 2, (a[1] + b[1]) / 2,
                   (a[2] + b[2]) / 2);
@@ -181,9 +179,9 @@ Shell shell_from(std::size_t first, std::vector<Facet>& triangles, const Neighbo
 
 double enclosed_volume(const ClosedShells& all, const Shell& shell) {
   double volume = 0;
-  const Point& o = all.points[static_cast<std::size_t>(shell.triangles.front()[0])];
+  const Point& o = all.points[as_size(shell.triangles.front()[0])];
   for (const auto& t : shell.triangles) {
-    const auto from = [&](std::size_t k) { return minus(all.points[static_cast<std::size_t>(t[k])], o); };
+    const auto from = [&](std::size_t k) { return minus(all.points[as_size(t[k])], o); };
     volume += dot(from(0), cross(from(1), from(2))) / 6;
   }
   return volume;
@@ -195,7 +193,7 @@ double winding_number(const ClosedShells& all, const Shell& shell, const Point& 
     std::array<Point, 3> r;
     std::array<double, 3> length{};
     for (std::size_t k = 0; k < 3; ++k) {
-      r[k] = minus(all.points[static_cast<std::size_t>(t[k])], point);
+      r[k] = minus(all.points[as_size(t[k])], point);
       length[k] = std::sqrt(dot(r[k], r[k]));
     }
     angle += 2 * std::atan2(dot(r[0], cross(r[1], r[2])),
@@ -219,12 +217,12 @@ void nest_shells(ClosedShells& all) {
   }
   for (std::size_t a = 0; a < all.shells.size(); ++a) {
     // Any corner will do, because no two shells cross.
-    const Point& corner = all.points[static_cast<std::size_t>(all.shells[a].triangles.front()[0])];
+    const Point& corner = all.points[as_size(all.shells[a].triangles.front()[0])];
     for (std::size_t b = 0; b < all.shells.size(); ++b) {
       if (a == b || winding_number(all, all.shells[b], corner) < 0.5) continue;
       ++all.shells[a].depth;
       int& around = all.shells[a].around;
-      if (around < 0 || volumes[b] < volumes[static_cast<std::size_t>(around)]) around = static_cast<int>(b);
+      if (around < 0 || volumes[b] < volumes[as_size(around)]) around = static_cast<int>(b);
     }
   }
 }
@@ -233,8 +231,7 @@ std::vector<std::array<Point, 3>> corners_of(const ClosedShells& all, const Shel
   std::vector<std::array<Point, 3>> corners;
   corners.reserve(shell.triangles.size());
   for (const auto& t : shell.triangles)
-    corners.push_back({all.points[static_cast<std::size_t>(t[0])], all.points[static_cast<std::size_t>(t[1])],
-                       all.points[static_cast<std::size_t>(t[2])]});
+    corners.push_back({all.points[as_size(t[0])], all.points[as_size(t[1])], all.points[as_size(t[2])]});
   return corners;
 }
 

@@ -7,6 +7,7 @@
 #include "mesh/surfaces/faces.hpp"
 #include "mesh/surfaces/skin.hpp"
 #include "mesh/tetrahedra.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -35,9 +36,9 @@ std::vector<SkinFace> coated_skin(const RawMesh& mesh, const std::string& block)
 CoatReport report_on(const RawMesh& mesh, const std::string& coat) {
   CoatReport report{coat};
   for (const RawBlock& block : mesh.groups.at(coat).blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape));
+    const auto n = as_size(node_count(block.shape));
     for (std::size_t e = 0; e < block.nodes.size(); e += n, ++report.elements) {
-      const auto x = [&](std::size_t a) { return mesh.x[static_cast<std::size_t>(block.nodes[e + a])]; };
+      const auto x = [&](std::size_t a) { return mesh.x[as_size(block.nodes[e + a])]; };
       // The volume is that of straight-edged tetrahedra, which is enough for a report.
       report.volume += std::abs(volume_6(x(0), x(1), x(2), x(3))) / 6;
     }

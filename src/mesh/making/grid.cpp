@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -26,7 +27,7 @@ constexpr std::array<Offset, 8> k_vertex{
 // Positions of an element's nodes on the lattice of half cells: vertices given, mid nodes halfway along their
 // edges.
 std::vector<Offset> with_mid_nodes(Shape shape, const std::vector<Offset>& vertices) {
-  std::vector<Offset> nodes(static_cast<std::size_t>(node_count(shape)));
+  std::vector<Offset> nodes(as_size(node_count(shape)));
   std::copy(vertices.begin(), vertices.end(), nodes.begin());
   if (order(shape) == 1) return nodes;
   const int edges_per_face = dimension(shape) == 2 ? 1 : vertex_count(face_shape(shape));
@@ -34,10 +35,9 @@ std::vector<Offset> with_mid_nodes(Shape shape, const std::vector<Offset>& verti
   for (int f = 0; f < face_count(shape); ++f) {
     const auto local = face_nodes(shape, f);
     for (int e = 0; e < edges_per_face; ++e) {
-      const Offset& p = nodes[static_cast<std::size_t>(local[static_cast<std::size_t>(e)])];
-      const Offset& q =
-          nodes[static_cast<std::size_t>(local[static_cast<std::size_t>((e + 1) % n_vertices)])];
-      Offset& mid = nodes[static_cast<std::size_t>(local[static_cast<std::size_t>(n_vertices + e)])];
+      const Offset& p = nodes[as_size(local[as_size(e)])];
+      const Offset& q = nodes[as_size(local[as_size((e + 1) % n_vertices)])];
+      Offset& mid = nodes[as_size(local[as_size(n_vertices + e)])];
       for (std::size_t i = 0; i < 3; ++i) mid[i] = (p[i] + q[i]) / 2;
     }
   }
@@ -50,7 +50,7 @@ std::vector<std::vector<Offset>> cell_pattern(Shape shape) {
   // Each element of a cell by its corners, whose middles follow for quadratic shapes.
   const auto add = [&](auto first, auto last) {
     std::vector<Offset> vertices;
-    for (auto i = first; i != last; ++i) vertices.push_back(k_vertex[static_cast<std::size_t>(*i)]);
+    for (auto i = first; i != last; ++i) vertices.push_back(k_vertex[as_size(*i)]);
     pattern.push_back(with_mid_nodes(shape, vertices));
   };
   if (shape == Shape::tri3 || shape == Shape::tri6) {
@@ -58,7 +58,7 @@ std::vector<std::vector<Offset>> cell_pattern(Shape shape) {
   } else if (shape == Shape::tet4 || shape == Shape::tet10) {
     for (const auto& t : k_tetrahedra) add(t.begin(), t.end());
   } else {
-    std::vector<int> all(static_cast<std::size_t>(vertex_count(shape)));
+    std::vector<int> all(as_size(vertex_count(shape)));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
     add(all.begin(), all.end());
   }
@@ -71,23 +71,21 @@ class Lattice {
     std::size_t size = 1;
     for (std::size_t d = 0; d < grid.axes.size(); ++d) {
       extent_[d] = 2 * static_cast<int>(grid.axes[d].size()) - 1;
-      size *= static_cast<std::size_t>(extent_[d]);
+      size *= as_size(extent_[d]);
     }
     node_.assign(size, -1);
   }
 
   Index node(const Offset& at) {
     // Nodes are made when the first element asks for one; odd positions are the middles of cells.
-    Index& number = node_[(static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(extent_[1]) +
-                           static_cast<std::size_t>(at[1])) *
-                              static_cast<std::size_t>(extent_[0]) +
-                          static_cast<std::size_t>(at[0])];
+    Index& number =
+        node_[(as_size(at[2]) * as_size(extent_[1]) + as_size(at[1])) * as_size(extent_[0]) + as_size(at[0])];
     if (number >= 0) return number;
-    number = static_cast<Index>(mesh_.x.size());
+    number = as_index(mesh_.x.size());
     Point x{};
     for (std::size_t d = 0; d < grid_.axes.size(); ++d) {
       const GridAxis& axis = grid_.axes[d];
-      const auto i = static_cast<std::size_t>(at[d] / 2);
+      const auto i = as_size(at[d] / 2);
       x[d] = at[d] % 2 == 0 ? axis[i] : 0.5 * (axis[i] + axis[i + 1]);
     }
     mesh_.x.push_back(x);
@@ -120,7 +118,7 @@ GlobalIndex count_elements(const RawMesh& mesh) {
 void face_centre_and_normal(const RawMesh& mesh, const std::vector<Index>& face, int n_vertices,
                             Point& centre, Point& normal) {
   centre = {};
-  const auto x = [&](int a) { return mesh.x[static_cast<std::size_t>(face[static_cast<std::size_t>(a)])]; };
+  const auto x = [&](int a) { return mesh.x[as_size(face[as_size(a)])]; };
   for (int a = 0; a < n_vertices; ++a)
     for (std::size_t i = 0; i < 3; ++i) centre[i] += x(a)[i] / n_vertices;
   const Point o = x(0), p = x(1), q = n_vertices > 2 ? x(2) : Point{o[0], o[1], 1};
@@ -182,9 +180,9 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const Cells& cells) {
   std::vector<Index> face;
   const auto collect = [&](std::size_t e, int f) {
     face.clear();
-    for (const int a : face_nodes(grid.shape, f)) face.push_back(elements[e + static_cast<std::size_t>(a)]);
+    for (const int a : face_nodes(grid.shape, f)) face.push_back(elements[e + as_size(a)]);
   };
-  for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
+  for (std::size_t e = 0; e < elements.size(); e += as_size(nn))
     for (int f = 0; f < face_count(grid.shape) && cells.layer[e / per_cell] != Layer::inner; ++f) {
       collect(e, f);
       const auto [place, first] = alone.insert(face_key(face.data(), n_vertices));
@@ -193,10 +191,10 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const Cells& cells) {
   std::vector<char> outside(mesh.x.size(), 0);  // vertices of these faces
   for (const FaceKey& key : alone)
     for (const Index vertex : key.vertices)
-      if (vertex >= 0) outside[static_cast<std::size_t>(vertex)] = 1;
-  const auto is_outside = [&](Index vertex) { return outside[static_cast<std::size_t>(vertex)] != 0; };
+      if (vertex >= 0) outside[as_size(vertex)] = 1;
+  const auto is_outside = [&](Index vertex) { return outside[as_size(vertex)] != 0; };
   GlobalIndex number = count_elements(mesh);
-  for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
+  for (std::size_t e = 0; e < elements.size(); e += as_size(nn))
     for (int f = 0; f < face_count(grid.shape) && cells.layer[e / per_cell] == Layer::outermost; ++f) {
       collect(e, f);
       if (!std::all_of(face.begin(), face.begin() + n_vertices, is_outside)) continue;
@@ -216,8 +214,8 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const Cells& cells) {
 }  // namespace
 
 GridAxis uniform_axis(double a, double b, int n) {
-  GridAxis axis(static_cast<std::size_t>(n) + 1);
-  for (int i = 0; i <= n; ++i) axis[static_cast<std::size_t>(i)] = i == n ? b : a + (b - a) * i / n;
+  GridAxis axis(as_size(n) + 1);
+  for (int i = 0; i <= n; ++i) axis[as_size(i)] = i == n ? b : a + (b - a) * i / n;
   return axis;
 }
 

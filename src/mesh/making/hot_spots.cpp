@@ -12,6 +12,7 @@
 #include "mesh/making/size_field.hpp"
 #include "mesh/surfaces/faces.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -55,7 +56,7 @@ InscribedSphere climb(const std::vector<SkinFace>& skin, const std::vector<doubl
       higher = false;
       for (std::size_t i = 0; i < 3; ++i)
         for (const double sign : {-1.0, 1.0}) {
-          if (on && static_cast<std::size_t>(on->axis) == i) continue;
+          if (on && as_size(on->axis) == i) continue;
           Point next = p;
           next[i] += sign * std::min(step, r / 2);
           if (const double there = depth(skin, reach, next); there > r * (1 + 1e-9)) {
@@ -85,7 +86,7 @@ std::optional<Point> point_inside(const std::vector<Point>& vertices, const std:
       add(a);
       continue;
     }
-    const auto axis = static_cast<std::size_t>(on->axis);
+    const auto axis = as_size(on->axis);
     for (const Point& b : vertices) {
       if (!(a[axis] <= on->at && b[axis] > on->at)) continue;
       const double share = (on->at - a[axis]) / (b[axis] - a[axis]);
@@ -94,7 +95,7 @@ std::optional<Point> point_inside(const std::vector<Point>& vertices, const std:
   }
   if (n == 0) return {};
   for (double& c : mean) c /= n;
-  if (on) mean[static_cast<std::size_t>(on->axis)] = on->at;
+  if (on) mean[as_size(on->axis)] = on->at;
   return mean;
 }
 
@@ -132,14 +133,13 @@ std::vector<InscribedSphere> inscribed_spheres(const RawMesh& mesh, const std::v
   std::vector<InscribedSphere> seeds;
   for (const std::string& body : bodies)
     for (const RawBlock& block : mesh.groups.at(body).blocks) {
-      const auto nn = static_cast<std::size_t>(node_count(block.shape));
+      const auto nn = as_size(node_count(block.shape));
       const int vertices = vertex_count(block.shape);
       constexpr std::size_t k_seeds = 1500;
       const std::size_t stride = nn * (on ? 1 : 1 + block.nodes.size() / nn / k_seeds);
-      std::vector<Point> x(static_cast<std::size_t>(vertices));
+      std::vector<Point> x(as_size(vertices));
       for (std::size_t e = 0; e < block.nodes.size(); e += stride) {
-        for (std::size_t a = 0; a < x.size(); ++a)
-          x[a] = mesh.x[static_cast<std::size_t>(block.nodes[e + a])];
+        for (std::size_t a = 0; a < x.size(); ++a) x[a] = mesh.x[as_size(block.nodes[e + a])];
         if (const std::optional<Point> centre = point_inside(x, on))
           seeds.push_back({*centre, depth(skin, reach, *centre)});
       }

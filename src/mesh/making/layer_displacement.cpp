@@ -8,6 +8,7 @@
 #include "mesh/making/layer_elements.hpp"
 #include "mesh/making/layer_spread.hpp"
 #include "mesh/quality.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -25,10 +26,6 @@ constexpr double k_good_enough = 0.35;   ///< or the quality that is enough
 constexpr double k_least_cosine = 0.15;  ///< between a displacement and the normal of each of its faces
 constexpr double k_least_share = 0.06;   ///< of the thickness; thinner layers are none
 constexpr double k_one_plane = 1e-4;     ///< sine of the angle of normals that count as one
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 Point difference(const Point& p, const Point& q) {
   return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
@@ -80,7 +77,7 @@ struct Corner {
 
 /// Sign of the orientation of the element that a face is of: meshes are not yet oriented.
 double orientation(const RawMesh& mesh, const RawGroup& body, const FaceOwner& owner) {
-  const RawBlock& block = body.blocks[static_cast<std::size_t>(owner.block)];
+  const RawBlock& block = body.blocks[as_size(owner.block)];
   const Index* nodes =
       block.nodes.data() + static_cast<std::ptrdiff_t>(owner.element) * node_count(block.shape);
   return element_quality(mesh, linear(block.shape), nodes) < 0 ? -1 : 1;
@@ -91,14 +88,14 @@ void add_corners(const RawMesh& mesh, const WallFace& face, double sign, std::ve
   // The normal at each corner, weighted by the angle there, so that it does not depend on how faces are
   // divided.
   for (int a = 0; a < n; ++a) {
-    const auto node = [&](int b) { return face.nodes[static_cast<std::size_t>((a + b + n) % n)]; };
-    const Point& x = mesh.x[at(node(0))];
-    Point next = difference(mesh.x[at(node(1))], x);
+    const auto node = [&](int b) { return face.nodes[as_size((a + b + n) % n)]; };
+    const Point& x = mesh.x[as_size(node(0))];
+    Point next = difference(mesh.x[as_size(node(1))], x);
     Corner corner{node(0), {}, 1, face.surface};
     if (n == 2) {
       corner.normal = a == 0 ? Point{-next[1], next[0], 0} : Point{next[1], -next[0], 0};
     } else {
-      Point last = difference(mesh.x[at(node(-1))], x);
+      Point last = difference(mesh.x[as_size(node(-1))], x);
       normalise(next);
       normalise(last);
       corner.angle = std::acos(std::clamp(dot(next, last), -1.0, 1.0));
@@ -170,16 +167,16 @@ std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallT
     auto rim_end = rim;
     while (rim_end != around.end() && rim_end->node == node) ++rim_end;
     Point d{};
-    if (wall.held[at(node)] == 0) d = best_direction(&*first, &*first + (last - first));
+    if (wall.held[as_size(node)] == 0) d = best_direction(&*first, &*first + (last - first));
     if (rim != rim_end) d = along(d, &*rim, &*rim + (rim_end - rim));
     // The thickness is measured along the normals: a slanted displacement has to be longer.
     double mean = 0, least = 1, thick = 0;
     for (auto c = first; c != last; ++c) {
       mean += c->angle * dot(c->normal, d);
-      thick += c->angle * thickness[static_cast<std::size_t>(c->surface)];
+      thick += c->angle * thickness[as_size(c->surface)];
       least = std::min(least, dot(c->normal, d));
     }
-    if (least > k_least_cosine) add(u[at(node)], thick / mean, d);
+    if (least > k_least_cosine) add(u[as_size(node)], thick / mean, d);
     first = last;
   }
   return u;
@@ -201,7 +198,7 @@ class Room {
     moved_.dimension = mesh.dimension;
     moved_.x = mesh.x;
     for (const RawBlock& block : body.blocks)
-      for (std::size_t e = 0; e < block.nodes.size(); e += static_cast<std::size_t>(node_count(block.shape)))
+      for (std::size_t e = 0; e < block.nodes.size(); e += as_size(node_count(block.shape)))
         quality_.push_back(element_quality(mesh, linear(block.shape), block.nodes.data() + e));
   }
 
@@ -224,7 +221,7 @@ class Room {
       for (std::size_t i = 0; i < u_.size(); ++i) {
         if (bad_[i] == 0 || dot(u_[i], u_[i]) == 0) continue;
         all_good = false;
-        if (const Index owner = spread.wall_vertex(static_cast<Index>(i)); owner >= 0) thinner[at(owner)] = 1;
+        if (const Index owner = spread.wall_vertex(as_index(i)); owner >= 0) thinner[as_size(owner)] = 1;
       }
       if (all_good) return;
       if (round == k_even_rounds) break;
@@ -244,19 +241,18 @@ class Room {
       changed = false;
       for (const WallFace& face : wall_.wall)
         for (int a = 0; a < face.n_vertices; ++a) {
-          const Index p = face.nodes[static_cast<std::size_t>(a)],
-                      q = face.nodes[static_cast<std::size_t>((a + 1) % face.n_vertices)];
+          const Index p = face.nodes[as_size(a)], q = face.nodes[as_size((a + 1) % face.n_vertices)];
           changed = make_even(p, q, share) || make_even(q, p, share) || changed;
         }
     }
   }
   /// Makes the layers at p thinner where those at q, its neighbour, ask for it.
   bool make_even(Index p, Index q, std::vector<double>& share) const {
-    if (!(wanted_[at(q)] > 0)) return false;  // layers end there with one step
-    const Point d = difference(mesh_.x[at(p)], mesh_.x[at(q)]);
-    const double most = share[at(q)] * wanted_[at(q)] + k_steepest * std::sqrt(dot(d, d));
-    if (share[at(p)] * wanted_[at(p)] <= most * (1 + 1e-9)) return false;
-    share[at(p)] = most / wanted_[at(p)];
+    if (!(wanted_[as_size(q)] > 0)) return false;  // layers end there with one step
+    const Point d = difference(mesh_.x[as_size(p)], mesh_.x[as_size(q)]);
+    const double most = share[as_size(q)] * wanted_[as_size(q)] + k_steepest * std::sqrt(dot(d, d));
+    if (share[as_size(p)] * wanted_[as_size(p)] <= most * (1 + 1e-9)) return false;
+    share[as_size(p)] = most / wanted_[as_size(p)];
     return true;
   }
 
@@ -288,16 +284,16 @@ class Room {
   }
 
   bool has_changed(const Index* nodes, int n) const {
-    return std::any_of(nodes, nodes + n, [&](Index i) { return changed_[at(i)] != 0; });
+    return std::any_of(nodes, nodes + n, [&](Index i) { return changed_[as_size(i)] != 0; });
   }
   void mark(const Index* nodes, int n) {
-    for (int a = 0; a < n; ++a) bad_[at(nodes[a])] = std::max<char>(bad_[at(nodes[a])], 1);
+    for (int a = 0; a < n; ++a) bad_[as_size(nodes[a])] = std::max<char>(bad_[as_size(nodes[a])], 1);
   }
 
   void look_at_elements() {
     std::size_t number = 0;
     for (const RawBlock& block : body_.blocks) {
-      const auto nn = static_cast<std::size_t>(node_count(block.shape));
+      const auto nn = as_size(node_count(block.shape));
       const int n_vertices = vertex_count(block.shape);
       for (std::size_t e = 0; e < block.nodes.size(); e += nn, ++number) {
         const Index* element = block.nodes.data() + e;
@@ -312,11 +308,11 @@ class Room {
   /// A displacement that is nearly none or away from one of its faces becomes none.
   void look_at_columns() {
     for (const Corner& c : corners_) {
-      const Point& u = u_[at(c.node)];
+      const Point& u = u_[as_size(c.node)];
       const double length = std::sqrt(dot(u, u));
       if (length > 0 &&
-          (length < k_least_share * wanted_[at(c.node)] || dot(u, c.normal) < k_least_cosine * length))
-        bad_[at(c.node)] = 2;
+          (length < k_least_share * wanted_[as_size(c.node)] || dot(u, c.normal) < k_least_cosine * length))
+        bad_[as_size(c.node)] = 2;
     }
   }
 
@@ -329,24 +325,23 @@ class Room {
     // made: none may have a negative volume.
     for (const WallFace& face : wall_.wall) {
       if (!has_changed(face.nodes.data(), face.n_vertices)) continue;
-      const auto n = static_cast<std::size_t>(face.n_vertices);
+      const auto n = as_size(face.n_vertices);
       const FaceOwner& owner = wall_.faces.at(face_key(face.nodes.data(), face.n_vertices));
-      const Shape shape = body_.blocks[static_cast<std::size_t>(owner.block)].shape;
+      const Shape shape = body_.blocks[as_size(owner.block)].shape;
       const double sign = orientation(mesh_, body_, owner);
       column.x.clear();
       for (std::size_t level = 0; level <= levels_.size(); ++level)
         for (std::size_t a = 0; a < n; ++a) {
-          column.x.push_back(mesh_.x[at(face.nodes[a])]);
-          if (level > 0) add(column.x.back(), levels_[level - 1], u_[at(face.nodes[a])]);
+          column.x.push_back(mesh_.x[as_size(face.nodes[a])]);
+          if (level > 0) add(column.x.back(), levels_[level - 1], u_[as_size(face.nodes[a])]);
         }
       bool folds = false;
       for (std::size_t level = 0; level < levels_.size() && !folds; ++level) {
         columns.clear();
         for (std::size_t a = 0; a < n; ++a) {
-          const bool none = dot(u_[at(face.nodes[a])], u_[at(face.nodes[a])]) == 0;
-          const auto lower = static_cast<Index>(level * n + a), upper = lower + static_cast<Index>(n);
-          columns.push_back(
-              {face.nodes[a], none ? static_cast<Index>(a) : lower, none ? static_cast<Index>(a) : upper});
+          const bool none = dot(u_[as_size(face.nodes[a])], u_[as_size(face.nodes[a])]) == 0;
+          const auto lower = as_index(level * n + a), upper = lower + as_index(n);
+          columns.push_back({face.nodes[a], none ? as_index(a) : lower, none ? as_index(a) : upper});
         }
         for (const std::vector<Index>& element : layer_elements(shape, columns))
           folds = folds || sign * measure(column, element) <= 0;
@@ -357,7 +352,7 @@ class Room {
 
   /// Area or volume of a simplex, the least corner's of another element, with its sign and a factor.
   static double measure(const RawMesh& mesh, const std::vector<Index>& element) {
-    const auto x = [&](std::size_t a) { return mesh.x[at(element[a])]; };
+    const auto x = [&](std::size_t a) { return mesh.x[as_size(element[a])]; };
     if (element.size() == 3) return cross(difference(x(1), x(0)), difference(x(2), x(0)))[2];
     if (element.size() == 4 && mesh.dimension == 3)
       return dot(cross(difference(x(1), x(0)), difference(x(2), x(0))), difference(x(3), x(0)));

@@ -6,15 +6,13 @@
 #include <cmath>
 #include <map>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
 
 constexpr double k_one_plane = 1e-4;  ///< sine of the angle of normals that count as one
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 double dot(const Point& p, const Point& q) {
   return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
@@ -29,7 +27,7 @@ double normalise(Point& p) {
 
 /// The unit normal of a face, of either sign.
 Point normal_of(const RawMesh& mesh, const WallFace& face) {
-  const auto x = [&](std::size_t a) -> const Point& { return mesh.x[at(face.nodes[a])]; };
+  const auto x = [&](std::size_t a) -> const Point& { return mesh.x[as_size(face.nodes[a])]; };
   Point s{}, t{};
   for (std::size_t i = 0; i < 3; ++i) s[i] = x(1)[i] - x(0)[i];
   Point n{-s[1], s[0], 0};
@@ -50,7 +48,7 @@ std::unordered_map<FaceKey, std::size_t, FaceKeyHash> groups_of_faces(const RawM
     if (group.dimension != mesh.dimension - 1) continue;
     for (const RawBlock& block : group.blocks) {
       const int n = vertex_count(block.shape);
-      for (std::size_t f = 0; f < block.nodes.size(); f += at(node_count(block.shape))) {
+      for (std::size_t f = 0; f < block.nodes.size(); f += as_size(node_count(block.shape))) {
         std::size_t& g = groups[face_key(block.nodes.data() + f, n)];
         g = g * 0x9E3779B97F4A7C15ULL + number;
       }
@@ -72,9 +70,9 @@ void LayerSpread::find_neighbours(const RawMesh& mesh, const RawGroup& body) {
   std::vector<Edge> edges;
   for (const RawBlock& block : body.blocks) {
     const std::vector<LocalEdge> local = edges_of(block.shape);
-    for (std::size_t e = 0; e < block.nodes.size(); e += at(node_count(block.shape)))
+    for (std::size_t e = 0; e < block.nodes.size(); e += as_size(node_count(block.shape)))
       for (const LocalEdge& l : local) {
-        const Index a = block.nodes[e + at(l.a)], b = block.nodes[e + at(l.b)];
+        const Index a = block.nodes[e + as_size(l.a)], b = block.nodes[e + as_size(l.b)];
         edges.emplace_back(a, b);
         edges.emplace_back(b, a);
       }
@@ -85,10 +83,10 @@ void LayerSpread::find_neighbours(const RawMesh& mesh, const RawGroup& body) {
   first_.assign(mesh.x.size() + 1, 0);
   // Rows and weights in one pass, since the edges are sorted by their first node.
   for (const auto& [a, b] : edges) {
-    ++first_[at(a) + 1];
+    ++first_[as_size(a) + 1];
     neighbour_.push_back(b);
     Point d{};
-    for (std::size_t i = 0; i < 3; ++i) d[i] = mesh.x[at(b)][i] - mesh.x[at(a)][i];
+    for (std::size_t i = 0; i < 3; ++i) d[i] = mesh.x[as_size(b)][i] - mesh.x[as_size(a)][i];
     weight_.push_back(1 / std::max(std::sqrt(dot(d, d)), 1e-30));
   }
   for (std::size_t i = 0; i < mesh.x.size(); ++i) first_[i + 1] += first_[i];
@@ -111,8 +109,8 @@ void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const W
     const auto found = groups.find(face_key(face.nodes.data(), face.n_vertices));
     const std::size_t of = found == groups.end() ? 0 : found->second;
     for (int a = 0; a < face.n_vertices; ++a) {
-      const Index node = face.nodes[at(a)];
-      if (wall.on_wall[at(node)] != 0) continue;
+      const Index node = face.nodes[as_size(a)];
+      if (wall.on_wall[as_size(node)] != 0) continue;
       Guide& guide = guides[node];
       std::vector<Plane>& known = planes[node];
       const auto same = std::find_if(known.begin(), known.end(), [&](const Plane& p) {
@@ -134,7 +132,7 @@ void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const W
   }
   // A node with as many normals as dimensions is a corner, and a node of another body does not move either.
   for (auto& [node, guide] : guides)
-    if (guide.normals.size() >= at(mesh.dimension)) guide.fixed = true;
+    if (guide.normals.size() >= as_size(mesh.dimension)) guide.fixed = true;
   for (const auto& [name, group] : mesh.groups) {
     if (group.dimension != mesh.dimension || &group == &body) continue;
     for (const RawBlock& block : group.blocks)
@@ -144,9 +142,9 @@ void LayerSpread::find_guides(const RawMesh& mesh, const RawGroup& body, const W
   // All other nodes of the body that are not on the wall move, with the guide that they have.
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     if (first_[i] == first_[i + 1] || wall.on_wall[i] != 0) continue;
-    const auto guide = guides.find(static_cast<Index>(i));
+    const auto guide = guides.find(as_index(i));
     if (guide != guides.end() && guide->second.fixed) continue;
-    moving_.push_back(static_cast<Index>(i));
+    moving_.push_back(as_index(i));
     guide_of_.push_back(guide == guides.end() ? -1 : static_cast<int>(guides_.size()));
     if (guide != guides.end()) guides_.push_back(guide->second);
   }
@@ -156,13 +154,13 @@ void LayerSpread::find_owners(const WallTopology& wall) {
   owner_.assign(wall.on_wall.size(), -1);
   std::vector<Index> front;
   for (std::size_t i = 0; i < wall.on_wall.size(); ++i)
-    if (wall.on_wall[i] != 0) front.push_back(owner_[i] = static_cast<Index>(i));
+    if (wall.on_wall[i] != 0) front.push_back(owner_[i] = as_index(i));
   for (std::size_t next = 0; next < front.size(); ++next) {
     const Index node = front[next];
-    for (Index k = first_[at(node)]; k < first_[at(node) + 1]; ++k) {
-      const Index other = neighbour_[at(k)];
-      if (owner_[at(other)] >= 0) continue;
-      owner_[at(other)] = owner_[at(node)];
+    for (Index k = first_[as_size(node)]; k < first_[as_size(node) + 1]; ++k) {
+      const Index other = neighbour_[as_size(k)];
+      if (owner_[as_size(other)] >= 0) continue;
+      owner_[as_size(other)] = owner_[as_size(node)];
       front.push_back(other);
     }
   }
@@ -175,18 +173,19 @@ void LayerSpread::sweep(std::vector<Point>& u, int n_sweeps) const {
       const Index node = moving_[m];
       Point sum{};
       double weights = 0;
-      for (Index k = first_[at(node)]; k < first_[at(node) + 1]; ++k) {
-        weights += weight_[at(k)];
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += weight_[at(k)] * u[at(neighbour_[at(k)])][i];
+      for (Index k = first_[as_size(node)]; k < first_[as_size(node) + 1]; ++k) {
+        weights += weight_[as_size(k)];
+        for (std::size_t i = 0; i < 3; ++i)
+          sum[i] += weight_[as_size(k)] * u[as_size(neighbour_[as_size(k)])][i];
       }
       for (double& c : sum) c /= weights;
       // Nodes on planes and rims keep to them.
       if (guide_of_[m] >= 0)
-        for (const Point& n : guides_[at(guide_of_[m])].normals) {
+        for (const Point& n : guides_[as_size(guide_of_[m])].normals) {
           const double across = dot(sum, n);
           for (std::size_t i = 0; i < 3; ++i) sum[i] -= across * n[i];
         }
-      u[at(node)] = sum;
+      u[as_size(node)] = sum;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/making/wall_topology.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -22,7 +23,7 @@ class LayerSpread {
   void sweep(std::vector<Point>& u, int n_sweeps) const;
 
   /// The vertex of the wall that is nearest to a vertex of the body, counted in edges; -1: none.
-  Index wall_vertex(Index node) const { return owner_[static_cast<std::size_t>(node)]; }
+  Index wall_vertex(Index node) const { return owner_[as_size(node)]; }
 
  private:
   /// What holds a vertex of the boundary: normals of its planes, orthogonal to each other.

@@ -11,6 +11,7 @@
 #include "mesh/making/unused_parts.hpp"
 #include "mesh/making/wall_topology.hpp"
 #include "mesh/tetrahedra.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -19,10 +20,6 @@ namespace {
 
 using Corners = std::array<Index, 4>;
 using Prism = std::array<Index, 6>;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 Point between(const Point& a, const Point& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
@@ -37,7 +34,7 @@ Prism turned(const Prism& prism) {
                                                                   {3, 5, 4, 0, 2, 1},
                                                                   {4, 3, 5, 1, 0, 2},
                                                                   {5, 4, 3, 2, 1, 0}}};
-  const auto least = static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin());
+  const auto least = as_size(std::ranges::min_element(prism) - prism.begin());
   Prism result;
   for (std::size_t i = 0; i < 6; ++i) result[i] = prism[k_order[least][i]];
   return result;
@@ -91,12 +88,12 @@ class LevelCut {
     around_.resize(mesh_.x.size());
     value_.assign(mesh_.x.size(), 0);
     for (const RawBlock& block : body_.blocks) {
-      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      const auto n = as_size(node_count(block.shape));
       for (std::size_t e = 0; e < block.nodes.size(); e += n) {
         Corners tet;
         std::copy_n(block.nodes.begin() + static_cast<std::ptrdiff_t>(e), 4, tet.begin());
         // The lists of elements around each node make moving and splitting a matter of the neighbourhood.
-        for (const Index node : tet) around_[at(node)].push_back(tets_.size());
+        for (const Index node : tet) around_[as_size(node)].push_back(tets_.size());
         tets_.push_back(upright(tet));
       }
     }
@@ -108,10 +105,12 @@ class LevelCut {
   }
 
   double volume(const Corners& t) const {
-    return volume_6(mesh_.x[at(t[0])], mesh_.x[at(t[1])], mesh_.x[at(t[2])], mesh_.x[at(t[3])]);
+    return volume_6(mesh_.x[as_size(t[0])], mesh_.x[as_size(t[1])], mesh_.x[as_size(t[2])],
+                    mesh_.x[as_size(t[3])]);
   }
   double quality(const Corners& t) const {
-    return mean_ratio(mesh_.x[at(t[0])], mesh_.x[at(t[1])], mesh_.x[at(t[2])], mesh_.x[at(t[3])]);
+    return mean_ratio(mesh_.x[as_size(t[0])], mesh_.x[as_size(t[1])], mesh_.x[as_size(t[2])],
+                      mesh_.x[as_size(t[3])]);
   }
   Corners upright(Corners tet) const {
     // The mesh may have elements that are inside out; two corners that change places set them right.
@@ -126,14 +125,14 @@ class LevelCut {
       // The body's own elements do not hold it, or nothing could move.
       if (name == body) continue;
       for (const RawBlock& block : group.blocks) {
-        const auto n = static_cast<std::size_t>(node_count(block.shape));
+        const auto n = as_size(node_count(block.shape));
         const std::vector<LocalEdge> edges = edges_of(block.shape);
         for (std::size_t e = 0; e < block.nodes.size(); e += n) {
-          for (std::size_t a = 0; a < n; ++a) held_[at(block.nodes[e + a])] = 1;
+          for (std::size_t a = 0; a < n; ++a) held_[as_size(block.nodes[e + a])] = 1;
           for (const LocalEdge& edge : edges) {
-            const Index a = block.nodes[e + static_cast<std::size_t>(edge.a)],
-                        b = block.nodes[e + static_cast<std::size_t>(edge.b)];
-            if (!around_[at(a)].empty() && !around_[at(b)].empty()) held_edges_.insert(edge_key(a, b));
+            const Index a = block.nodes[e + as_size(edge.a)], b = block.nodes[e + as_size(edge.b)];
+            if (!around_[as_size(a)].empty() && !around_[as_size(b)].empty())
+              held_edges_.insert(edge_key(a, b));
           }
         }
       }
@@ -153,13 +152,15 @@ class LevelCut {
           const Edge edge = edge_key(tet[e[0]], tet[e[1]]);
           // Held edges are left alone: a node in one would lie in the face of another group that does not
           // have it.
-          if (value_[at(edge.first)] * value_[at(edge.second)] <= 0 || held_edges_.contains(edge)) continue;
-          const Point &a = mesh_.x[at(edge.first)], &b = mesh_.x[at(edge.second)];
+          if (value_[as_size(edge.first)] * value_[as_size(edge.second)] <= 0 || held_edges_.contains(edge))
+            continue;
+          const Point &a = mesh_.x[as_size(edge.first)], &b = mesh_.x[as_size(edge.second)];
           const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
           // The function changes by no more than the distance: most edges need no further look.
-          if (std::abs(value_[at(edge.first)]) > length) continue;
+          if (std::abs(value_[as_size(edge.first)]) > length) continue;
           const double middle = level_(between(a, b, 0.5));
-          if (middle * value_[at(edge.first)] < 0 && std::abs(middle) > k_well * length) across.insert(edge);
+          if (middle * value_[as_size(edge.first)] < 0 && std::abs(middle) > k_well * length)
+            across.insert(edge);
         }
       if (across.empty()) return;
       for (const Edge& edge : across) split_edge(edge);
@@ -168,13 +169,13 @@ class LevelCut {
   void split_edge(const Edge& edge) {
     const auto [a, b] = edge;
     // The new node belongs to no other group; it gets its value at once, for the next pass reads it.
-    const Index middle = add_node(between(mesh_.x[at(a)], mesh_.x[at(b)], 0.5));
+    const Index middle = add_node(between(mesh_.x[as_size(a)], mesh_.x[as_size(b)], 0.5));
     value_.push_back(level_(mesh_.x.back()));
     held_.push_back(0);
     around_.emplace_back();
     // Every element at the edge is in the lists of both ends: the first end keeps its elements, and the
     // second one trades each of them for the new half.
-    const std::vector<std::size_t> with_a = around_[at(a)];
+    const std::vector<std::size_t> with_a = around_[as_size(a)];
     for (const std::size_t t : with_a) {
       if (std::ranges::find(tets_[t], b) == tets_[t].end()) continue;
       Corners other = tets_[t];
@@ -182,9 +183,9 @@ class LevelCut {
       // both get the middle.
       std::ranges::replace(tets_[t], b, middle);
       std::ranges::replace(other, a, middle);
-      std::erase(around_[at(b)], t);
-      around_[at(middle)].push_back(t);
-      for (const Index node : other) around_[at(node)].push_back(tets_.size());
+      std::erase(around_[as_size(b)], t);
+      around_[as_size(middle)].push_back(t);
+      for (const Index node : other) around_[as_size(node)].push_back(tets_.size());
       tets_.push_back(other);
     }
   }
@@ -203,7 +204,8 @@ class LevelCut {
       }
     for (const auto& [face, n] : count) {
       if (n > 1) continue;
-      const Point &a = mesh_.x[at(face[0])], &b = mesh_.x[at(face[1])], &c = mesh_.x[at(face[2])];
+      const Point &a = mesh_.x[as_size(face[0])], &b = mesh_.x[as_size(face[1])],
+                  &c = mesh_.x[as_size(face[2])];
       const Point u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
       Point normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
       const double length = std::hypot(normal[0], normal[1], normal[2]);
@@ -214,7 +216,7 @@ class LevelCut {
 
   bool may_go(Index node, const Point& along) const {
     constexpr double k_in_plane = 1e-9;
-    if (held_[at(node)] != 0) return false;
+    if (held_[as_size(node)] != 0) return false;
     const auto planes = planes_.find(node);
     if (planes == planes_.end()) return true;
     // A step is allowed if it stays in all planes around the node, up to rounding in proportion to its
@@ -233,7 +235,7 @@ class LevelCut {
     // element.
     for (int i = 0; i < k_halvings; ++i) {
       const double middle = 0.5 * (low + high);
-      (level_(between(mesh_.x[at(below)], mesh_.x[at(above)], middle)) < 0 ? low : high) = middle;
+      (level_(between(mesh_.x[as_size(below)], mesh_.x[as_size(above)], middle)) < 0 ? low : high) = middle;
     }
     return 0.5 * (low + high);
   }
@@ -243,7 +245,7 @@ class LevelCut {
   void draw_nodes_onto_surface() {
     constexpr double k_near = 0.3, k_least_quality = 0.2;
     for (std::size_t i = 0; i < mesh_.x.size(); ++i) {
-      const auto node = static_cast<Index>(i);
+      const auto node = as_index(i);
       if (around_[i].empty() || held_[i] != 0 || value_[i] == 0) continue;
       // Beyond this share of the edge a node would go too far: the edge is cut in place of that.
       double nearest = k_near;
@@ -252,11 +254,11 @@ class LevelCut {
       for (const std::size_t t : around_[i])
         for (const Index other : tets_[t]) {
           // Only edges that the surface crosses count, each of them once.
-          if (value_[at(other)] * value_[i] >= 0 || !seen.insert(other).second) continue;
+          if (value_[as_size(other)] * value_[i] >= 0 || !seen.insert(other).second) continue;
           const bool is_below = value_[i] < 0;
           const double t_below = is_below ? crossing(node, other) : crossing(other, node);
           const double share = is_below ? t_below : 1 - t_below;
-          const Point there = between(mesh_.x[i], mesh_.x[at(other)], share);
+          const Point there = between(mesh_.x[i], mesh_.x[as_size(other)], share);
           const Point along = {there[0] - mesh_.x[i][0], there[1] - mesh_.x[i][1], there[2] - mesh_.x[i][2]};
           if (share < nearest && may_go(node, along)) nearest = share, place = there;
         }
@@ -277,11 +279,11 @@ class LevelCut {
   Index cut_node(Index below, Index above) {
     // A node that lies on the surface counts as below; two elements at one edge share the node that cuts it,
     // so that no gap opens.
-    if (value_[at(below)] == 0) return below;
+    if (value_[as_size(below)] == 0) return below;
     const auto [place, is_new] = cut_nodes_.emplace(edge_key(below, above), -1);
     if (is_new) {
-      place->second = static_cast<Index>(mesh_.x.size());
-      const Point x = between(mesh_.x[at(below)], mesh_.x[at(above)], crossing(below, above));
+      place->second = as_index(mesh_.x.size());
+      const Point x = between(mesh_.x[as_size(below)], mesh_.x[as_size(above)], crossing(below, above));
       add_node(x);
     }
     return place->second;
@@ -289,7 +291,7 @@ class LevelCut {
   Index add_node(const Point& x) {
     mesh_.x.push_back(x);
     mesh_.input_node.push_back(++last_node_);
-    return static_cast<Index>(mesh_.x.size()) - 1;
+    return as_index(mesh_.x.size()) - 1;
   }
 
   void cut(const Corners& tet, std::vector<Corners>& lower, std::vector<Corners>& upper) {
@@ -298,8 +300,8 @@ class LevelCut {
     for (const Index node : tet) {
       // A node on the surface can go with either side, and so it is a node below that decides whether the
       // element is cut.
-      any_below = any_below || value_[at(node)] < 0;
-      (value_[at(node)] <= 0 ? below : above).push_back(node);
+      any_below = any_below || value_[as_size(node)] < 0;
+      (value_[as_size(node)] <= 0 ? below : above).push_back(node);
     }
     // An element all of whose nodes lie on the surface goes to the side of its middle.
     if (above.empty() || !any_below) {
@@ -307,7 +309,7 @@ class LevelCut {
       if (above.empty() && !any_below) {
         Point middle{};
         for (const Index node : tet)
-          for (std::size_t i = 0; i < 3; ++i) middle[i] += mesh_.x[at(node)][i] / 4;
+          for (std::size_t i = 0; i < 3; ++i) middle[i] += mesh_.x[as_size(node)][i] / 4;
         is_below = level_(middle) < 0;
       }
       (is_below ? lower : upper).push_back(tet);
@@ -358,13 +360,13 @@ class LevelCut {
       }
     // Edges whose ends have been drawn onto the surface are straight.
     for (const auto& [edge, node] : middles_)
-      if (held_[at(node)] == 0)
-        mesh_.x[at(node)] = between(mesh_.x[at(edge.first)], mesh_.x[at(edge.second)], 0.5);
+      if (held_[as_size(node)] == 0)
+        mesh_.x[as_size(node)] = between(mesh_.x[as_size(edge.first)], mesh_.x[as_size(edge.second)], 0.5);
   }
   Index middle(Index a, Index b) {
     // An edge that is new gets its middle once, for all elements around it.
     const auto [place, is_new] = middles_.emplace(edge_key(a, b), -1);
-    if (is_new) place->second = add_node(between(mesh_.x[at(a)], mesh_.x[at(b)], 0.5));
+    if (is_new) place->second = add_node(between(mesh_.x[as_size(a)], mesh_.x[as_size(b)], 0.5));
     return place->second;
   }
 

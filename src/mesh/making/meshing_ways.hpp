@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <span>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 /// A way to mesh solids of a CAD program.
@@ -46,7 +48,7 @@ bool is_cheap(const SolidWay& way);
 /// The way of an attempt, from zero; the last one beyond.
 template <class Way>
 const Way& way_of(std::span<const Way> ways, int attempt) {
-  const auto asked = static_cast<std::size_t>(attempt);
+  const auto asked = as_size(attempt);
   return asked < ways.size() ? ways[asked] : ways.back();
 }
 

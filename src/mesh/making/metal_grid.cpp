@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "mesh/making/hot_spots.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -22,29 +23,29 @@ void transform_line(const std::vector<double>& f, std::vector<double>& out) {
   std::vector<int> apex(f.size(), 0);
   std::vector<double> border(f.size() + 1, 0);
   int k = -1;
-  const auto value = [&](int i) { return f[static_cast<std::size_t>(i)]; };
+  const auto value = [&](int i) { return f[as_size(i)]; };
   for (int q = 0; q < n; ++q) {
     if (value(q) >= k_infinite) continue;
     double s = -k_infinite;
     while (k >= 0) {
-      const int v = apex[static_cast<std::size_t>(k)];
+      const int v = apex[as_size(k)];
       s = ((value(q) + double(q) * q) - (value(v) + double(v) * v)) / (2.0 * (q - v));
-      if (s > border[static_cast<std::size_t>(k)]) break;
+      if (s > border[as_size(k)]) break;
       --k;
     }
     if (k < 0) s = -k_infinite;
     ++k;
-    apex[static_cast<std::size_t>(k)] = q;
-    border[static_cast<std::size_t>(k)] = s;
-    border[static_cast<std::size_t>(k) + 1] = k_infinite;
+    apex[as_size(k)] = q;
+    border[as_size(k)] = s;
+    border[as_size(k) + 1] = k_infinite;
   }
   out.assign(f.size(), k_infinite);
   if (k < 0) return;
   int at = 0;
   for (int q = 0; q < n; ++q) {
-    while (border[static_cast<std::size_t>(at) + 1] < q) ++at;
-    const int v = apex[static_cast<std::size_t>(at)];
-    out[static_cast<std::size_t>(q)] = double(q - v) * (q - v) + value(v);
+    while (border[as_size(at) + 1] < q) ++at;
+    const int v = apex[as_size(at)];
+    out[as_size(q)] = double(q - v) * (q - v) + value(v);
   }
 }
 
@@ -75,9 +76,7 @@ MetalGrid::MetalGrid(const RawMesh& mesh, const std::vector<std::string>& bodies
 }
 
 std::size_t MetalGrid::cell(int x, int y, int z) const {
-  return (static_cast<std::size_t>(x) * static_cast<std::size_t>(n_[1]) + static_cast<std::size_t>(y)) *
-             static_cast<std::size_t>(n_[2]) +
-         static_cast<std::size_t>(z);
+  return (as_size(x) * as_size(n_[1]) + as_size(y)) * as_size(n_[2]) + as_size(z);
 }
 
 void MetalGrid::fill(const RawMesh& mesh, const std::vector<std::string>& bodies) {
@@ -85,9 +84,7 @@ void MetalGrid::fill(const RawMesh& mesh, const std::vector<std::string>& bodies
   // the fourth, and so on. Lines are a little off the middle of their cells, so that they meet no edge.
   constexpr double k_off = 1.3e-4, k_off_too = 2.1e-4;
   const ViewFromAbove view(mesh, bodies);
-  cube_of_.assign(
-      static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]),
-      -1);
+  cube_of_.assign(as_size(n_[0]) * as_size(n_[1]) * as_size(n_[2]), -1);
   for (int x = 0; x < n_[0]; ++x)
     for (int y = 0; y < n_[1]; ++y) {
       std::vector<double> z = view.crossings(
@@ -106,11 +103,10 @@ void MetalGrid::fill(const RawMesh& mesh, const std::vector<std::string>& bodies
 void MetalGrid::measure_depth() {
   std::vector<double> squared(cube_of_.size());
   for (std::size_t i = 0; i < squared.size(); ++i) squared[i] = cube_of_[i] < 0 ? 0 : k_infinite;
-  const std::array<std::size_t, 3> stride = {
-      static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]), static_cast<std::size_t>(n_[2]), 1};
+  const std::array<std::size_t, 3> stride = {as_size(n_[1]) * as_size(n_[2]), as_size(n_[2]), 1};
   std::vector<double> line, out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto n = static_cast<std::size_t>(n_[axis]);
+    const auto n = as_size(n_[axis]);
     for (std::size_t first = 0; first < squared.size(); ++first) {
       if (first / stride[axis] % n != 0) continue;
       line.resize(n);
@@ -125,8 +121,7 @@ void MetalGrid::measure_depth() {
 }
 
 Point MetalGrid::centre(std::size_t cube) const {
-  const std::size_t c = cubes_[cube], nz = static_cast<std::size_t>(n_[2]),
-                    ny = static_cast<std::size_t>(n_[1]);
+  const std::size_t c = cubes_[cube], nz = as_size(n_[2]), ny = as_size(n_[1]);
   return {low_[0] + (static_cast<double>(c / nz / ny) + 0.5) * edge_,
           low_[1] + (static_cast<double>(c / nz % ny) + 0.5) * edge_,
           low_[2] + (static_cast<double>(c % nz) + 0.5) * edge_};
@@ -134,8 +129,7 @@ Point MetalGrid::centre(std::size_t cube) const {
 
 std::vector<int> MetalGrid::neighbours(std::size_t cube) const {
   // All cells around: ways along diagonals are 1.7 edges long in place of three.
-  const std::size_t c = cubes_[cube], nz = static_cast<std::size_t>(n_[2]),
-                    ny = static_cast<std::size_t>(n_[1]);
+  const std::size_t c = cubes_[cube], nz = as_size(n_[2]), ny = as_size(n_[1]);
   const int x = static_cast<int>(c / nz / ny), y = static_cast<int>(c / nz % ny),
             z = static_cast<int>(c % nz);
   std::vector<int> around;
@@ -150,21 +144,19 @@ std::vector<int> MetalGrid::neighbours(std::size_t cube) const {
 
 bool MetalGrid::on_ridge(std::size_t cube) const {
   const std::vector<int> around = neighbours(cube);
-  return std::ranges::none_of(
-      around, [&](int other) { return depth_[static_cast<std::size_t>(other)] > depth_[cube]; });
+  return std::ranges::none_of(around, [&](int other) { return depth_[as_size(other)] > depth_[cube]; });
 }
 
 bool MetalGrid::between_places(std::size_t cube, const WaysInMetal& ways) const {
-  return std::ranges::any_of(neighbours(cube), [&](int other) {
-    return ways.from[static_cast<std::size_t>(other)] != ways.from[cube];
-  });
+  return std::ranges::any_of(neighbours(cube),
+                             [&](int other) { return ways.from[as_size(other)] != ways.from[cube]; });
 }
 
 std::size_t MetalGrid::cube_at(const Point& point) const {
   std::array<int, 3> i{};
   for (std::size_t d = 0; d < 3; ++d)
     i[d] = std::clamp(static_cast<int>((point[d] - low_[d]) / edge_), 0, n_[d] - 1);
-  if (const int cube = cube_of_[cell(i[0], i[1], i[2])]; cube >= 0) return static_cast<std::size_t>(cube);
+  if (const int cube = cube_of_[cell(i[0], i[1], i[2])]; cube >= 0) return as_size(cube);
   std::size_t nearest = 0;
   double least = k_infinite;
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
@@ -194,7 +186,7 @@ std::vector<double> MetalGrid::widest_ways(std::size_t from) const {
     queue.pop();
     if (wide < width[cube]) continue;
     for (const int next : neighbours(cube)) {
-      const auto to = static_cast<std::size_t>(next);
+      const auto to = as_size(next);
       const double there = std::min(wide, depth_[to]);
       if (there > width[to]) width[to] = there, queue.emplace(there, to);
     }
@@ -228,7 +220,7 @@ WaysInMetal MetalGrid::shortest_ways(const std::vector<WayStart>& starts) const 
     if (length > ways.length[cube]) continue;
     const Point a = centre(cube);
     for (const int next : neighbours(cube)) {
-      const auto to = static_cast<std::size_t>(next);
+      const auto to = as_size(next);
       const Point b = centre(to);
       const double there = length + std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
       if (there >= ways.length[to]) continue;

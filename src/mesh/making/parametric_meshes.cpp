@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "mesh/making/grid.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -23,7 +24,7 @@ std::string side_name(const Point& normal) {
 
 Grid box(const std::vector<double>& origin, const std::vector<double>& size,
          const std::vector<int>& divisions, Shape shape) {
-  const auto dim = static_cast<std::size_t>(dimension(shape));
+  const auto dim = as_size(dimension(shape));
   if (size.size() != dim || divisions.size() != dim || origin.size() != dim)
     throw std::invalid_argument("sizes, divisions and origin need one entry for each of the " +
                                 std::to_string(dim) + " directions of the element " +

@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "mesh/making/reader_message.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/program_path.hpp"
@@ -175,7 +176,7 @@ void Reader::give(const void* bytes, std::size_t n) {
     if (written < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (written <= 0) throw MessageError("the reader has gone");
     at += written;
-    n -= static_cast<std::size_t>(written);
+    n -= as_size(written);
   }
 }
 
@@ -252,7 +253,7 @@ void Reader::take(void* bytes, std::size_t n) {
     if (read < 0 && errno == EINTR) continue;
     if (read <= 0) ended();
     at += read;
-    n -= static_cast<std::size_t>(read);
+    n -= as_size(read);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "mesh/making/parametric_meshes.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -107,11 +108,11 @@ RawBlock take_block(const TakeBytes& take, double& left, std::size_t n_nodes) {
   if (shape < 0 || shape > static_cast<int>(Shape::hex20)) throw MessageError("an element of no shape");
   RawBlock block{static_cast<Shape>(shape), take_list<Index>(take, left), {}};
   block.input_element = take_numbers(take, left);
-  const auto per_element = static_cast<std::size_t>(node_count(block.shape));
+  const auto per_element = as_size(node_count(block.shape));
   if (block.nodes.size() != per_element * block.input_element.size())
     throw MessageError("elements without their nodes");
   for (const Index node : block.nodes)
-    if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
+    if (node < 0 || as_size(node) >= n_nodes)
       throw MessageError("an element with a node that the mesh does not have");
   return block;
 }
@@ -317,7 +318,7 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
     if (!std::isfinite(face.radius) || face.radius < 0) throw MessageError("a radius that is none");
     for (const auto& facet : face.facets)
       for (const Index node : facet)
-        if (node < -1 || (node >= 0 && static_cast<std::size_t>(node) >= mesh.x.size()))
+        if (node < -1 || (node >= 0 && as_size(node) >= mesh.x.size()))
           throw MessageError("a facet with a node that the mesh does not have");
   }
   return mesh;
@@ -330,7 +331,7 @@ void put_all(int descriptor, const void* bytes, std::size_t n) {
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) throw MessageError("the other end of the pipe has gone");
     at += written;
-    n -= static_cast<std::size_t>(written);
+    n -= as_size(written);
   }
 }
 
@@ -341,7 +342,7 @@ void take_all(int descriptor, void* bytes, std::size_t n) {
     if (read < 0 && errno == EINTR) continue;
     if (read <= 0) throw MessageError("the other end of the pipe has gone");
     at += read;
-    n -= static_cast<std::size_t>(read);
+    n -= as_size(read);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -51,19 +52,19 @@ struct BoundaryFace {
 using Faces = std::unordered_map<FaceKey, BoundaryFace, FaceKeyHash>;
 
 const Point& place(const Mesh& mesh, Index node) {
-  return mesh.x[static_cast<std::size_t>(node)];
+  return mesh.x[as_size(node)];
 }
 
 template <class Nodes>
 Point centre_of(const Mesh& mesh, const Nodes& nodes, int n) {
   Point sum{};
-  for (int a = 0; a < n; ++a) sum = plus(sum, place(mesh, nodes[static_cast<std::size_t>(a)]));
+  for (int a = 0; a < n; ++a) sum = plus(sum, place(mesh, nodes[as_size(a)]));
   return times(1.0 / n, sum);
 }
 
 /// The vector area of the face (in the plane the length) with its vertices in this order.
 Point vector_area(const Mesh& mesh, const BoundaryFace& face) {
-  const auto corner = [&](int a) { return place(mesh, face.vertices[static_cast<std::size_t>(a)]); };
+  const auto corner = [&](int a) { return place(mesh, face.vertices[as_size(a)]); };
   if (face.n == 2) {
     const Point edge = from_to(corner(0), corner(1));
     return {edge[1], -edge[0], 0};
@@ -82,8 +83,7 @@ void for_faces(const Mesh& mesh, const Visit& visit) {
         BoundaryFace face;
         const std::span<const int> local = face_nodes(block.shape, f);
         face.n = vertex_count(face_shape(block.shape));
-        for (std::size_t a = 0; a < static_cast<std::size_t>(face.n); ++a)
-          face.vertices[a] = block.element(e)[local[a]];
+        for (std::size_t a = 0; a < as_size(face.n); ++a) face.vertices[a] = block.element(e)[local[a]];
         visit(block, e, face);
       }
 }
@@ -96,7 +96,7 @@ std::vector<char> open_nodes(const Mesh& mesh) {
   for_faces(mesh, [&](const ElementBlock&, Index, const BoundaryFace& face) {
     const Point area = vector_area(mesh, face);
     for (int a = 0; a < face.n; ++a) {
-      const auto i = static_cast<std::size_t>(face.vertices[static_cast<std::size_t>(a)]);
+      const auto i = as_size(face.vertices[as_size(a)]);
       sum[i] = plus(sum[i], area);
       size[i] += std::sqrt(dot(area, area));
     }
@@ -113,7 +113,7 @@ Faces boundary_faces(const Mesh& mesh) {
   Faces faces;
   for_faces(mesh, [&](const ElementBlock& block, Index e, const BoundaryFace& face) {
     for (int a = 0; a < face.n; ++a)
-      if (open[static_cast<std::size_t>(face.vertices[static_cast<std::size_t>(a)])] == 0) return;
+      if (open[as_size(face.vertices[as_size(a)])] == 0) return;
     BoundaryFace& kept = faces[face_key(face.vertices.data(), face.n)];
     if (kept.n_elements++ > 0) return;
     kept = face;
@@ -156,8 +156,8 @@ std::vector<std::pair<Index, Wedge>> reentrant_wedges(const Mesh& mesh) {
   std::map<std::pair<Index, Index>, std::vector<const BoundaryFace*>> at_edge;
   for (const auto& [key, face] : faces)
     for (int a = 0; a < face.n; ++a) {
-      Index i = face.vertices[static_cast<std::size_t>(a)];
-      Index j = face.n == 2 ? i : face.vertices[static_cast<std::size_t>((a + 1) % face.n)];
+      Index i = face.vertices[as_size(a)];
+      Index j = face.n == 2 ? i : face.vertices[as_size((a + 1) % face.n)];
       if (i > j) std::swap(i, j);
       if (i < mesh.n_owned_nodes) at_edge[{i, j}].push_back(&face);
     }

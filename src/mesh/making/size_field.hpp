@@ -6,6 +6,7 @@
 
 #include "mesh/making/meshing_outlook.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -27,9 +28,7 @@ class SizeField {
 
  private:
   std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(n_[1]) + static_cast<std::size_t>(j)) *
-               static_cast<std::size_t>(n_[0]) +
-           static_cast<std::size_t>(i);
+    return (as_size(k) * as_size(n_[1]) + as_size(j)) * as_size(n_[0]) + as_size(i);
   }
   int cell(double x, std::size_t axis) const;
   void spread(double growth);

@@ -10,6 +10,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/shape.hpp"
 #include "mesh/surfaces/skin.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -23,17 +24,16 @@ class Smoothing {
       for (const RawBlock& block : group.blocks) {
         const bool moves = group.dimension == mesh.dimension && block.shape == Shape::tet4;
         if (!moves)
-          for (const Index node : block.nodes) fixed_[static_cast<std::size_t>(node)] = 1;
+          for (const Index node : block.nodes) fixed_[as_size(node)] = 1;
         for (std::size_t e = 0; moves && e < block.nodes.size(); e += 4) {
-          for (std::size_t a = 0; a < 4; ++a)
-            around_[static_cast<std::size_t>(block.nodes[e + a])].push_back(tets_.size());
+          for (std::size_t a = 0; a < 4; ++a) around_[as_size(block.nodes[e + a])].push_back(tets_.size());
           tets_.push_back(block.nodes.data() + e);
         }
       }
     for (const auto& [name, group] : mesh.groups)
       if (group.dimension == mesh.dimension)
         for (const SkinFace& face : skin_of(mesh, name))
-          for (const Index node : face.nodes) fixed_[static_cast<std::size_t>(node)] = 1;
+          for (const Index node : face.nodes) fixed_[as_size(node)] = 1;
   }
 
   double least() const {
@@ -48,9 +48,9 @@ class Smoothing {
     for (std::size_t t = 0; t < tets_.size(); ++t)
       if (quality(t) < below)
         for (std::size_t a = 0; a < 4; ++a)
-          if (fixed_[static_cast<std::size_t>(tets_[t][a])] == 0) nodes.insert(tets_[t][a]);
+          if (fixed_[as_size(tets_[t][a])] == 0) nodes.insert(tets_[t][a]);
     bool moved = false;
-    for (const Index node : nodes) moved = improve(static_cast<std::size_t>(node)) || moved;
+    for (const Index node : nodes) moved = improve(as_size(node)) || moved;
     return moved;
   }
 
@@ -59,7 +59,7 @@ class Smoothing {
   double quality(std::size_t tet) const { return std::abs(element_quality(mesh_, Shape::tet4, tets_[tet])); }
 
   double volume(std::size_t tet) const {
-    const auto x = [&](std::size_t a) { return mesh_.x[static_cast<std::size_t>(tets_[tet][a])]; };
+    const auto x = [&](std::size_t a) { return mesh_.x[as_size(tets_[tet][a])]; };
     const Point o = x(0);
     std::array<Point, 3> e{};
     for (std::size_t a = 0; a < 3; ++a)

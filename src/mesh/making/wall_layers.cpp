@@ -11,15 +11,12 @@
 #include "mesh/making/layer_elements.hpp"
 #include "mesh/making/wall_topology.hpp"
 #include "mesh/quality.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Thickness of all layers over the mean edge of the wall where none is asked for: the elements behind them,
 /// which are as large as the edges, are pushed together to make room.
@@ -36,8 +33,8 @@ double mean_edge(const RawMesh& mesh, const WallTopology& wall, int surface) {
   for (const WallFace& face : wall.wall) {
     if (face.surface != surface) continue;
     for (int a = 0; a < (face.n_vertices == 2 ? 1 : face.n_vertices); ++a, ++n) {
-      const Point &p = mesh.x[at(face.nodes[static_cast<std::size_t>(a)])],
-                  &q = mesh.x[at(face.nodes[static_cast<std::size_t>((a + 1) % face.n_vertices)])];
+      const Point &p = mesh.x[as_size(face.nodes[as_size(a)])],
+                  &q = mesh.x[as_size(face.nodes[as_size((a + 1) % face.n_vertices)])];
       sum += length({p[0] - q[0], p[1] - q[1], p[2] - q[2]});
     }
   }
@@ -76,10 +73,12 @@ class Builder {
   }
 
  private:
-  bool has_layers(Index vertex) const { return at(vertex) < first_.size() && first_[at(vertex)] >= 0; }
+  bool has_layers(Index vertex) const {
+    return as_size(vertex) < first_.size() && first_[as_size(vertex)] >= 0;
+  }
   /// The vertex of a column at the end of a layer; level 0 is the wall.
   Index vertex(Index wall, int level) const {
-    return level == 0 || !has_layers(wall) ? wall : static_cast<Index>(first_[at(wall)] + level - 1);
+    return level == 0 || !has_layers(wall) ? wall : as_index(first_[as_size(wall)] + level - 1);
   }
   Index inner(Index wall) const { return vertex(wall, layers_.number); }
   LayerColumn column(Index wall, int level) const {
@@ -88,11 +87,11 @@ class Builder {
   Index add_node(const Point& x) {
     mesh_.x.push_back(x);
     mesh_.input_node.push_back(++last_node_);
-    return static_cast<Index>(mesh_.x.size()) - 1;
+    return as_index(mesh_.x.size()) - 1;
   }
   Point displaced(Index node, double share) const {
-    Point x = mesh_.x[at(node)];
-    for (std::size_t i = 0; i < 3; ++i) x[i] += share * u_[at(node)][i];
+    Point x = mesh_.x[as_size(node)];
+    for (std::size_t i = 0; i < 3; ++i) x[i] += share * u_[as_size(node)][i];
     return x;
   }
 
@@ -102,7 +101,7 @@ class Builder {
     std::map<Index, int> vertices;
     for (const WallFace& face : wall_.wall)
       if (face.n_vertices == 2)
-        for (int a = 0; a < 2; ++a) ++vertices[face.nodes[static_cast<std::size_t>(a)]];
+        for (int a = 0; a < 2; ++a) ++vertices[face.nodes[as_size(a)]];
     for (const auto& [vertex, n] : vertices)
       if (n == 1) rim_[{vertex, vertex}];
     for (const auto& [edge, n] : wall_.wall_edges)
@@ -112,8 +111,7 @@ class Builder {
       if (group.dimension != mesh_.dimension - 1) continue;
       for (const RawBlock& block : group.blocks) {
         const int n = vertex_count(block.shape);
-        for (std::size_t f = 0; f < block.nodes.size();
-             f += static_cast<std::size_t>(node_count(block.shape))) {
+        for (std::size_t f = 0; f < block.nodes.size(); f += as_size(node_count(block.shape))) {
           const Index* face = block.nodes.data() + f;
           if (!is_around(face_key(face, n))) continue;
           for (int a = 0; a < n; ++a) {
@@ -135,11 +133,11 @@ class Builder {
   void orient_faces() {
     for (WallFace& face : wall_.wall) {
       const FaceOwner& owner = wall_.faces.at(face_key(face.nodes.data(), face.n_vertices));
-      const RawBlock& block = body_.blocks[static_cast<std::size_t>(owner.block)];
+      const RawBlock& block = body_.blocks[as_size(owner.block)];
       face_shape_.push_back(block.shape);
       const Index* element =
           block.nodes.data() + static_cast<std::ptrdiff_t>(owner.element) * node_count(block.shape);
-      face.nodes.resize(static_cast<std::size_t>(face.n_vertices));
+      face.nodes.resize(as_size(face.n_vertices));
       if (element_quality(mesh_, block.shape, element) < 0)
         std::reverse(face.nodes.begin(), face.nodes.end());
     }
@@ -151,14 +149,14 @@ class Builder {
     first_.assign(n, -1);
     for (std::size_t i = 0; i < n; ++i) {
       if (wall_.on_wall[i] == 0 || length(u_[i]) == 0) continue;
-      first_[i] = static_cast<Index>(mesh_.x.size());
+      first_[i] = as_index(mesh_.x.size());
       for (const double share : levels_) {
-        add_node(displaced(static_cast<Index>(i), share));
-        column_.push_back(static_cast<Index>(i));
+        add_node(displaced(as_index(i), share));
+        column_.push_back(as_index(i));
       }
     }
     for (std::size_t i = 0; i < n; ++i)
-      if (wall_.on_wall[i] == 0) mesh_.x[i] = displaced(static_cast<Index>(i), 1);
+      if (wall_.on_wall[i] == 0) mesh_.x[i] = displaced(as_index(i), 1);
   }
 
   /// The mid nodes of the body's edges, by the edges' vertices behind the layers, and those of the wall.
@@ -166,9 +164,9 @@ class Builder {
     for (const RawBlock& block : body_.blocks) {
       if (order(block.shape) == 1) continue;
       const std::vector<LocalEdge> local = edges_of(block.shape);
-      for (std::size_t e = 0; e < block.nodes.size(); e += static_cast<std::size_t>(node_count(block.shape)))
+      for (std::size_t e = 0; e < block.nodes.size(); e += as_size(node_count(block.shape)))
         for (const LocalEdge& l : local) {
-          const auto node = [&](int a) { return block.nodes[e + static_cast<std::size_t>(a)]; };
+          const auto node = [&](int a) { return block.nodes[e + as_size(a)]; };
           place_middle(node(l.a), node(l.b), node(l.middle));
         }
     }
@@ -176,17 +174,18 @@ class Builder {
   void place_middle(Index a, Index b, Index middle) {
     const Edge behind = edge_key(inner(a), inner(b));
     if (middle_.contains(behind)) return;
-    Point x = mesh_.x[at(middle)];
-    for (std::size_t i = 0; i < 3; ++i) x[i] += 0.5 * (u_[at(a)][i] + u_[at(b)][i]);
+    Point x = mesh_.x[as_size(middle)];
+    for (std::size_t i = 0; i < 3; ++i) x[i] += 0.5 * (u_[as_size(a)][i] + u_[as_size(b)][i]);
     if (is_wall_edge(a, b))
       for (std::size_t i = 0; i < 3; ++i)
-        bulge_[edge_key(a, b)][i] = mesh_.x[at(middle)][i] - 0.5 * (mesh_.x[at(a)][i] + mesh_.x[at(b)][i]);
+        bulge_[edge_key(a, b)][i] =
+            mesh_.x[as_size(middle)][i] - 0.5 * (mesh_.x[as_size(a)][i] + mesh_.x[as_size(b)][i]);
     const bool stays_on_wall = is_wall_edge(a, b) && behind != edge_key(a, b);
     if (stays_on_wall) middle_[edge_key(a, b)] = middle;
     if (stays_on_wall)
       middle_[behind] = add_node(x);
     else
-      mesh_.x[at(middle_[behind] = middle)] = x;
+      mesh_.x[as_size(middle_[behind] = middle)] = x;
   }
   bool is_wall_edge(Index a, Index b) const {
     if (mesh_.dimension == 2) {
@@ -207,27 +206,26 @@ class Builder {
     for (auto& [name, group] : mesh_.groups) {
       if (group.dimension != mesh_.dimension - 1) continue;
       for (RawBlock& block : group.blocks)
-        for (std::size_t f = 0; f < block.nodes.size();
-             f += static_cast<std::size_t>(node_count(block.shape)))
+        for (std::size_t f = 0; f < block.nodes.size(); f += as_size(node_count(block.shape)))
           if (is_around(face_key(block.nodes.data() + f, vertex_count(block.shape))))
             move_nodes(block.shape, block.nodes.data() + f);
     }
   }
   void move_elements() {
     for (RawBlock& block : body_.blocks)
-      for (std::size_t e = 0; e < block.nodes.size(); e += static_cast<std::size_t>(node_count(block.shape)))
+      for (std::size_t e = 0; e < block.nodes.size(); e += as_size(node_count(block.shape)))
         move_nodes(block.shape, block.nodes.data() + e);
   }
 
   /// The wall's vertex that a column begins at.
   Index wall_of(Index vertex) const {
-    return at(vertex) < first_.size() ? vertex : column_[at(vertex) - first_.size()];
+    return as_size(vertex) < first_.size() ? vertex : column_[as_size(vertex) - first_.size()];
   }
   Index middle_of(Index a, Index b) {
     const auto [found, is_new] = middle_.try_emplace(edge_key(a, b), -1);
     if (!is_new) return found->second;
     Point x{};
-    for (std::size_t i = 0; i < 3; ++i) x[i] = 0.5 * (mesh_.x[at(a)][i] + mesh_.x[at(b)][i]);
+    for (std::size_t i = 0; i < 3; ++i) x[i] = 0.5 * (mesh_.x[as_size(a)][i] + mesh_.x[as_size(b)][i]);
     // Layers on a curved wall are curved as it is: they may be thinner than it bulges.
     if (const auto bulge = bulge_.find(edge_key(wall_of(a), wall_of(b))); bulge != bulge_.end())
       for (std::size_t i = 0; i < 3; ++i) x[i] += bulge->second[i];
@@ -235,10 +233,9 @@ class Builder {
   }
   void append(RawGroup& group, Shape shape, std::vector<Index> nodes) {
     if (order(shape) == 2) {
-      nodes.resize(static_cast<std::size_t>(node_count(shape)));
+      nodes.resize(as_size(node_count(shape)));
       for (const LocalEdge& l : edges_of(shape))
-        nodes[static_cast<std::size_t>(l.middle)] =
-            middle_of(nodes[static_cast<std::size_t>(l.a)], nodes[static_cast<std::size_t>(l.b)]);
+        nodes[as_size(l.middle)] = middle_of(nodes[as_size(l.a)], nodes[as_size(l.b)]);
     }
     auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
                               [&](const RawBlock& b) { return b.shape == shape; });
@@ -290,14 +287,13 @@ void require_room(const RawMesh& mesh, const WallTopology& wall, const RawGroup&
                   const std::vector<WallLayers>& together) {
   for (const WallFace& face : wall.wall) {
     const FaceOwner& owner = wall.faces.at(face_key(face.nodes.data(), face.n_vertices));
-    if (is_simplex(body.blocks[static_cast<std::size_t>(owner.block)].shape)) continue;
+    if (is_simplex(body.blocks[as_size(owner.block)].shape)) continue;
     for (int a = 0; a < face.n_vertices; ++a) {
-      const Index node = face.nodes[static_cast<std::size_t>(a)];
-      if (length(u[at(node)]) > 0) continue;
+      const Index node = face.nodes[as_size(a)];
+      if (length(u[as_size(node)]) > 0) continue;
       throw InputError({source},
-                       "there is no room for layers on '" +
-                           together[static_cast<std::size_t>(face.surface)].surface + "' at node " +
-                           std::to_string(mesh.input_node[at(node)]),
+                       "there is no room for layers on '" + together[as_size(face.surface)].surface +
+                           "' at node " + std::to_string(mesh.input_node[as_size(node)]),
                        "thinner layers, or triangles or tetrahedra, whose layers may end there");
     }
   }
@@ -313,8 +309,8 @@ void count_columns(const WallTopology& wall, int surface, const std::vector<Poin
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   for (const Index i : vertices) {
-    ++(length(u[at(i)]) > 0 ? report.n_columns : report.n_bare);
-    report.mean += length(u[at(i)]);
+    ++(length(u[as_size(i)]) > 0 ? report.n_columns : report.n_bare);
+    report.mean += length(u[as_size(i)]);
   }
   report.mean /= std::max<double>(1, static_cast<double>(vertices.size()));
 }

@@ -4,29 +4,25 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Calls use(block, element, face, nodes of the face) for every face of a group's elements.
 template <class Use>
 void for_each_face(const RawGroup& group, Use&& use) {
   std::vector<Index> nodes;
   for (int k = 0; k < static_cast<int>(group.blocks.size()); ++k) {
-    const RawBlock& block = group.blocks[static_cast<std::size_t>(k)];
-    const auto nn = static_cast<std::size_t>(node_count(block.shape));
+    const RawBlock& block = group.blocks[as_size(k)];
+    const auto nn = as_size(node_count(block.shape));
     for (std::size_t e = 0; e * nn < block.nodes.size(); ++e)
       for (int f = 0; f < face_count(block.shape); ++f) {
         nodes.clear();
-        for (const int a : face_nodes(block.shape, f))
-          nodes.push_back(block.nodes[e * nn + static_cast<std::size_t>(a)]);
-        use(k, static_cast<Index>(e), f, nodes);
+        for (const int a : face_nodes(block.shape, f)) nodes.push_back(block.nodes[e * nn + as_size(a)]);
+        use(k, as_index(e), f, nodes);
       }
   }
 }
@@ -35,7 +31,7 @@ void for_each_face(const RawGroup& group, Use&& use) {
 std::unordered_set<FaceKey, FaceKeyHash> boundary_of(const RawGroup& body) {
   std::unordered_set<FaceKey, FaceKeyHash> alone;
   for_each_face(body, [&](int k, Index, int, const std::vector<Index>& nodes) {
-    const Shape shape = body.blocks[static_cast<std::size_t>(k)].shape;
+    const Shape shape = body.blocks[as_size(k)].shape;
     const auto [place, first] = alone.insert(face_key(nodes.data(), vertex_count(face_shape(shape))));
     if (!first) alone.erase(place);
   });
@@ -50,14 +46,14 @@ void hold_at_other_bodies(const RawMesh& mesh, const std::string& body, const st
     const RawGroup& group = entry.second;
     if (name == body || group.dimension != mesh.dimension) continue;
     for_each_face(group, [&](int k, Index, int, const std::vector<Index>& nodes) {
-      const int n = vertex_count(face_shape(group.blocks[static_cast<std::size_t>(k)].shape));
+      const int n = vertex_count(face_shape(group.blocks[as_size(k)].shape));
       const FaceKey key = face_key(nodes.data(), n);
       if (!wall.faces.contains(key) || wall.wall_faces.contains(key)) return;
       if (!boundary.contains(key))
         throw InputError({source},
                          "the body '" + name + "' has elements of the body '" + body + "', which gets layers",
                          "groups of bodies that do not overlap");
-      for (int a = 0; a < n; ++a) wall.held[at(nodes[static_cast<std::size_t>(a)])] = 1;
+      for (int a = 0; a < n; ++a) wall.held[as_size(nodes[as_size(a)])] = 1;
     });
   }
 }
@@ -76,7 +72,7 @@ std::vector<LocalEdge> edges_of(Shape shape) {
   // Faces of the shape have all of its edges.
   for (int f = 0; f < face_count(shape); ++f) {
     const auto local = face_nodes(shape, f);
-    const auto n = static_cast<std::size_t>(vertex_count(face_shape(shape)));
+    const auto n = as_size(vertex_count(face_shape(shape)));
     if (n == 2) {
       add(local[0], local[1], order(shape) == 2 ? local[2] : -1);
       continue;
@@ -97,25 +93,24 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
   std::vector<std::size_t> asked(surfaces.size(), 0), found(surfaces.size(), 0);
   for (std::size_t s = 0; s < surfaces.size(); ++s)
     for (const RawBlock& block : mesh.groups.at(surfaces[s]).blocks) {
-      const auto nn = static_cast<std::size_t>(node_count(block.shape));
+      const auto nn = as_size(node_count(block.shape));
       for (std::size_t f = 0; f < block.nodes.size(); f += nn) {
         const FaceKey key = face_key(block.nodes.data() + f, vertex_count(block.shape));
         if (wall.wall_faces.try_emplace(key, static_cast<int>(s)).second) ++asked[s];
         for (int a = 0; a < vertex_count(block.shape); ++a)
-          wall.on_wall[at(block.nodes[f + static_cast<std::size_t>(a)])] = 1;
+          wall.on_wall[as_size(block.nodes[f + as_size(a)])] = 1;
       }
     }
   // Then the faces of the body are gone through: those of the wall, those of the boundary around, and those
   // that only touch it. A wall inside of the body cannot have layers on one side.
   const auto boundary = boundary_of(elements);
   for_each_face(elements, [&](int k, Index e, int f, const std::vector<Index>& nodes) {
-    const Shape shape = elements.blocks[static_cast<std::size_t>(k)].shape;
+    const Shape shape = elements.blocks[as_size(k)].shape;
     const int n = vertex_count(face_shape(shape));
     const FaceKey key = face_key(nodes.data(), n);
     const bool outer = boundary.contains(key);
     bool touches = false;
-    for (int a = 0; a < n; ++a)
-      touches = touches || wall.on_wall[at(nodes[static_cast<std::size_t>(a)])] != 0;
+    for (int a = 0; a < n; ++a) touches = touches || wall.on_wall[as_size(nodes[as_size(a)])] != 0;
     const auto of_wall = wall.wall_faces.find(key);
     const bool is_wall = of_wall != wall.wall_faces.end();
     if (outer && !is_wall) wall.boundary.push_back({nodes, n});
@@ -123,17 +118,16 @@ WallTopology find_wall(const RawMesh& mesh, const std::vector<std::string>& surf
     wall.faces[key] = {0, k, f, e};
     if (is_wall && !outer)
       throw InputError(
-          {source}, "the surface '" + surfaces[at(of_wall->second)] + "' lies inside the body '" + body + "'",
+          {source},
+          "the surface '" + surfaces[as_size(of_wall->second)] + "' lies inside the body '" + body + "'",
           "a surface that bounds the body");
     if (!outer) return;
     (is_wall ? wall.wall : wall.around).push_back({nodes, n, is_wall ? of_wall->second : -1});
     if (!is_wall) return;
-    ++found[at(of_wall->second)];
+    ++found[as_size(of_wall->second)];
     if (n == 2) return;
     // Edges of wall faces are counted, so that the rim is known: an edge that one wall face alone has.
-    for (int a = 0; a < n; ++a)
-      ++wall.wall_edges[edge_key(nodes[static_cast<std::size_t>(a)],
-                                 nodes[static_cast<std::size_t>((a + 1) % n)])];
+    for (int a = 0; a < n; ++a) ++wall.wall_edges[edge_key(nodes[as_size(a)], nodes[as_size((a + 1) % n)])];
   });
   // A surface whose faces belong to another body is a mistake of the case, which the message explains.
   for (std::size_t s = 0; s < surfaces.size(); ++s)

@@ -9,6 +9,7 @@
 
 #include "mesh/raw_mesh.hpp"
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -16,7 +17,7 @@ using Edge = std::pair<Index, Index>;  ///< vertices, the lesser one first
 
 struct EdgeHash {
   std::size_t operator()(const Edge& e) const {
-    return static_cast<std::size_t>(e.first) * 0x9E3779B97F4A7C15ULL ^ static_cast<std::size_t>(e.second);
+    return as_size(e.first) * 0x9E3779B97F4A7C15ULL ^ as_size(e.second);
   }
 };
 

@@ -18,6 +18,7 @@
 #include "mesh/files/vtk_cells.hpp"
 #include "mesh/med/hdf5_extents.hpp"
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -109,7 +110,7 @@ class Reader {
     med_bool changed = MED_FALSE, transformed = MED_FALSE;
     const med_int n = MEDmeshnEntity(file_, step.name.c_str(), step.number, step.iteration, entity, type,
                                      data, mode, &changed, &transformed);
-    return static_cast<std::size_t>(std::max<med_int>(n, 0));
+    return as_size(std::max<med_int>(n, 0));
   }
   using ReadNumbers = med_err(med_idt, const char*, med_int, med_int, med_entity_type, med_geometry_type,
                               med_int*);
@@ -158,7 +159,7 @@ Step Reader::step_of(int number) {
   med_mesh_type type = MED_UNDEF_MESH_TYPE;
   med_sorting_type sorting = MED_SORT_UNDEF;
   med_axis_type axes = MED_UNDEF_AXIS_TYPE;
-  const auto n_axes = static_cast<std::size_t>(std::clamp<med_int>(MEDmeshnAxis(file_, number), 3, 100));
+  const auto n_axes = as_size(std::clamp<med_int>(MEDmeshnAxis(file_, number), 3, 100));
   std::string name(MED_NAME_SIZE + 1, '\0'), description(MED_COMMENT_SIZE + 1, '\0'),
       time_unit(MED_SNAME_SIZE + 1, '\0'), axis(n_axes * MED_SNAME_SIZE + 1, '\0'),
       unit(n_axes * MED_SNAME_SIZE + 1, '\0');
@@ -204,7 +205,7 @@ void Reader::note_unit(const std::string& axis_units) {
 void Reader::take_nodes(const Step& step) {
   // Coordinates of all nodes at once, in the order x, y, z of each.
   const std::size_t n = count(step, MED_NODE, MED_NONE, MED_COORDINATE, MED_NO_CMODE);
-  const auto dimension = static_cast<std::size_t>(step.space);
+  const auto dimension = as_size(step.space);
   std::vector<med_float> x = buffer<med_float>(dimension * n);
   if (n == 0 || MEDmeshNodeCoordinateRd(file_, step.name.c_str(), step.number, step.iteration,
                                         MED_FULL_INTERLACE, x.data()) < 0)
@@ -224,7 +225,7 @@ void Reader::take_nodes(const Step& step) {
     if (family.empty() || family[i] == 0) continue;
     Family& points = of_nodes_[family[i]];
     if (points.empty()) points.push_back({Shape::point1, {}, {}});
-    points.front().nodes.push_back(static_cast<Index>(first_node_ + i));
+    points.front().nodes.push_back(as_index(first_node_ + i));
     points.front().numbers.push_back(mesh_.input_node[first_node_ + i]);
   }
 }
@@ -255,11 +256,11 @@ void Reader::take_cells(const Step& step, const MedCell& cell) {
     member->nodes.resize(begin + per);
     for (std::size_t i = 0; i < per; ++i) {
       const med_int node = given[per * e + i];
-      if (node < 1 || static_cast<std::size_t>(node) > n_nodes)
+      if (node < 1 || as_size(node) > n_nodes)
         fail(fmt::format("{} {} of the mesh '{}' has the node {}, and there are {}", cell.name, e + 1,
                          step.name, node, n_nodes));
-      const auto place = static_cast<std::size_t>(vtk[static_cast<std::size_t>(cell.order[i])]);
-      member->nodes[begin + place] = static_cast<Index>(first_node_ + static_cast<std::size_t>(node) - 1);
+      const auto place = as_size(vtk[as_size(cell.order[i])]);
+      member->nodes[begin + place] = as_index(first_node_ + as_size(node) - 1);
     }
     member->numbers.push_back(own.empty() ? static_cast<GlobalIndex>(e) + 1 : own[e]);
   }
@@ -287,13 +288,13 @@ std::map<med_int, std::vector<std::string>> Reader::families_of(const Step& step
   for (int i = 1; i <= n; ++i) {
     const med_int n_groups = MEDnFamilyGroup(file_, step.name.c_str(), i);
     if (n_groups < 0) fail(fmt::format("family {} of the mesh '{}' cannot be read", i, step.name));
-    constexpr auto k_width = static_cast<std::size_t>(MED_LNAME_SIZE);
+    constexpr auto k_width = as_size(MED_LNAME_SIZE);
     std::string family(MED_NAME_SIZE + 1, '\0');
-    std::vector<char> names = buffer<char>(k_width * static_cast<std::size_t>(n_groups) + 1);
+    std::vector<char> names = buffer<char>(k_width * as_size(n_groups) + 1);
     med_int number = 0;
     if (MEDfamilyInfo(file_, step.name.c_str(), i, family.data(), &number, names.data()) < 0)
       fail(fmt::format("family {} of the mesh '{}' cannot be read", i, step.name));
-    for (std::size_t g = 0; g < static_cast<std::size_t>(n_groups); ++g)
+    for (std::size_t g = 0; g < as_size(n_groups); ++g)
       groups[number].push_back(text_of(names.data() + k_width * g, k_width));
   }
   return groups;

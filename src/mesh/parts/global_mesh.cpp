@@ -5,6 +5,7 @@
 
 #include "mesh/parts/partition.hpp"
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -20,7 +21,7 @@ std::string names_of(const RawMesh& raw, int dimension) {
 
 void choose_bodies(const RawMesh& raw, const std::vector<std::string>& bodies, GlobalMesh& whole) {
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
-    const std::string& name = bodies[static_cast<std::size_t>(b)];
+    const std::string& name = bodies[as_size(b)];
     const auto group = raw.groups.find(name);
     if (group == raw.groups.end() || group->second.dimension != raw.dimension)
       throw InputError({}, "the mesh has no body '" + name + "'",
@@ -42,7 +43,7 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
   for (const RawBlock* block : whole.blocks) {
     renumbered.push_back({block->shape, block->nodes, {}});
     for (Index& i : renumbered.back().nodes) {
-      Index& c = compact[static_cast<std::size_t>(i)];
+      Index& c = compact[as_size(i)];
       if (c < 0) c = n_used++;
       i = c;
     }
@@ -52,15 +53,13 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
   const NodeNeighbours graph = neighbours(n_used, pointers);
   // Work of a node follows from what its body computes.
   std::vector<BodyWork> of_block;
-  for (const int body : whole.body)
-    of_block.push_back(work.empty() ? BodyWork::all : work[static_cast<std::size_t>(body)]);
+  for (const int body : whole.body) of_block.push_back(work.empty() ? BodyWork::all : work[as_size(body)]);
   // Work of contact is that of nodes on surfaces that all processes have.
-  std::vector<char> in_contact(static_cast<std::size_t>(n_used), 0);
+  std::vector<char> in_contact(as_size(n_used), 0);
   for (const NamedFaces& surface : whole.surfaces)
     for (const RawBlock& block : surface.blocks)
       for (const Index i : block.nodes)
-        if (surface.replicated)
-          in_contact[static_cast<std::size_t>(compact[static_cast<std::size_t>(i)])] = 1;
+        if (surface.replicated) in_contact[as_size(compact[as_size(i)])] = 1;
   // The partition balances the work of nodes; then each process numbers its own ones.
   const std::vector<int> owner =
       assign_owners(graph, node_work(graph, pointers, of_block, in_contact), n_processes);
@@ -69,13 +68,13 @@ void number_used_nodes(const RawMesh& raw, const std::vector<BodyWork>& work, in
   // Owner and number go back to the nodes of the whole mesh; `first` counts them by processes.
   whole.owner.assign(raw.x.size(), -1);
   whole.number.assign(raw.x.size(), -1);
-  whole.first.assign(static_cast<std::size_t>(n_processes) + 1, 0);
+  whole.first.assign(as_size(n_processes) + 1, 0);
   for (std::size_t i = 0; i < raw.x.size(); ++i) {
     if (compact[i] < 0) continue;
-    const auto c = static_cast<std::size_t>(compact[i]);
+    const auto c = as_size(compact[i]);
     whole.owner[i] = owner[c];
     whole.number[i] = number[c];
-    ++whole.first[static_cast<std::size_t>(owner[c]) + 1];
+    ++whole.first[as_size(owner[c]) + 1];
   }
   for (std::size_t p = 1; p < whole.first.size(); ++p) whole.first[p] += whole.first[p - 1];
 }
@@ -88,7 +87,7 @@ void collect_surfaces(const RawMesh& raw, const std::vector<std::string>& bodies
     if (group.dimension != raw.dimension - 1) continue;
     for (const RawBlock& block : group.blocks) {
       const int nn = node_count(block.shape), nv = vertex_count(block.shape);
-      for (std::size_t f = 0; f < block.nodes.size(); f += static_cast<std::size_t>(nn))
+      for (std::size_t f = 0; f < block.nodes.size(); f += as_size(nn))
         owners.emplace(face_key(block.nodes.data() + f, nv), FaceOwner{});
     }
   }
@@ -101,8 +100,8 @@ void collect_surfaces(const RawMesh& raw, const std::vector<std::string>& bodies
         name, std::find(replicated.begin(), replicated.end(), name) != replicated.end(), {}, {}};
     for (const RawBlock& block : group.blocks) {
       const int nn = node_count(block.shape), nv = vertex_count(block.shape);
-      for (std::size_t f = 0; f * static_cast<std::size_t>(nn) < block.nodes.size(); ++f) {
-        const Index* face = block.nodes.data() + f * static_cast<std::size_t>(nn);
+      for (std::size_t f = 0; f * as_size(nn) < block.nodes.size(); ++f) {
+        const Index* face = block.nodes.data() + f * as_size(nn);
         const FaceOwner owner = owners.at(face_key(face, nv));
         if (owner.body < 0) continue;  // bounds a body that does not take part
         std::size_t k = 0;
@@ -114,8 +113,7 @@ void collect_surfaces(const RawMesh& raw, const std::vector<std::string>& bodies
           surface.body.push_back(owner.body);
         }
         // The element's own list of the face's nodes is outward.
-        const RawBlock& parent = raw.groups.at(bodies[static_cast<std::size_t>(owner.body)])
-                                     .blocks[static_cast<std::size_t>(owner.block)];
+        const RawBlock& parent = raw.groups.at(bodies[as_size(owner.body)]).blocks[as_size(owner.block)];
         const Index* element =
             parent.nodes.data() + static_cast<std::ptrdiff_t>(owner.element) * node_count(parent.shape);
         for (const int a : face_nodes(parent.shape, owner.face))
@@ -137,7 +135,7 @@ void collect_node_sets(const RawMesh& raw, GlobalMesh& whole) {
     std::vector<Index> nodes;
     for (const RawBlock& block : group.blocks)
       for (const Index i : block.nodes)
-        if (whole.owner[static_cast<std::size_t>(i)] >= 0) nodes.push_back(i);
+        if (whole.owner[as_size(i)] >= 0) nodes.push_back(i);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (!nodes.empty()) whole.node_sets.emplace_back(name, std::move(nodes));

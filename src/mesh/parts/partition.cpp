@@ -12,37 +12,34 @@
 #include <string>
 
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Elements around every node. A tetrahedral mesh has 23 of these numbers a node: four bytes each, with one
 // count over all blocks.
 class ElementsOfNodes {
  public:
   ElementsOfNodes(Index n_nodes, const std::vector<const RawBlock*>& blocks) : blocks_(blocks) {
-    start_.assign(at(n_nodes) + 1, 0);
+    start_.assign(as_size(n_nodes) + 1, 0);
     first_.push_back(0);
     for (const RawBlock* b : blocks) {
       first_.push_back(first_.back() + static_cast<Number>(b->nodes.size()) / node_count(b->shape));
-      for (const Index i : b->nodes) ++start_[at(i) + 1];
+      for (const Index i : b->nodes) ++start_[as_size(i) + 1];
     }
     if (first_.back() > std::numeric_limits<std::uint32_t>::max())
       throw InputError({}, "the mesh has more than 4e9 elements");
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    number_.resize(at(start_.back()));
+    number_.resize(as_size(start_.back()));
     std::vector<std::int64_t> fill(start_.begin(), start_.end() - 1);
     std::uint32_t number = 0;
     for (const RawBlock* b : blocks) {
-      const auto nn = at(node_count(b->shape));
+      const auto nn = as_size(node_count(b->shape));
       for (std::size_t e = 0; e < b->nodes.size(); e += nn, ++number)
-        for (std::size_t a = 0; a < nn; ++a) number_[at(fill[at(b->nodes[e + a])]++)] = number;
+        for (std::size_t a = 0; a < nn; ++a) number_[as_size(fill[as_size(b->nodes[e + a])]++)] = number;
     }
   }
 
@@ -50,11 +47,11 @@ class ElementsOfNodes {
   template <class Visit>
   void visit_around(Index node, Visit&& visit) const {
     std::size_t block = 0;
-    for (std::int64_t k = start_[at(node)]; k < start_[at(node) + 1]; ++k) {
-      const Number number = number_[at(k)];
+    for (std::int64_t k = start_[as_size(node)]; k < start_[as_size(node) + 1]; ++k) {
+      const Number number = number_[as_size(k)];
       while (number >= first_[block + 1]) ++block;  // they rise
-      const auto nn = at(node_count(blocks_[block]->shape));
-      visit(std::span(blocks_[block]->nodes).subspan(at(number - first_[block]) * nn, nn));
+      const auto nn = as_size(node_count(blocks_[block]->shape));
+      visit(std::span(blocks_[block]->nodes).subspan(as_size(number - first_[block]) * nn, nn));
     }
   }
 
@@ -84,17 +81,17 @@ double sum(const std::vector<double>& a) {
 NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blocks) {
   const ElementsOfNodes around(n_nodes, blocks);
   NodeNeighbours graph;
-  graph.start.reserve(at(n_nodes) + 1);
+  graph.start.reserve(as_size(n_nodes) + 1);
   graph.start.push_back(0);
   // A row for each node: the nodes of its elements, each once.
-  std::vector<Index> row, seen_from(at(n_nodes), -1);
+  std::vector<Index> row, seen_from(as_size(n_nodes), -1);
   const auto find_row = [&](Index i) {
     row.clear();
-    seen_from[at(i)] = i;
+    seen_from[as_size(i)] = i;
     around.visit_around(i, [&](std::span<const Index> nodes) {
       for (const Index node : nodes) {
-        if (seen_from[at(node)] == i) continue;
-        seen_from[at(node)] = i;
+        if (seen_from[as_size(node)] == i) continue;
+        seen_from[as_size(node)] = i;
         row.push_back(node);
       }
     });
@@ -110,7 +107,7 @@ NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blo
 
 NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
                    const std::vector<BodyWork>& of_block, std::span<const char> in_contact) {
-  const std::size_t n = at(graph.n_nodes());
+  const std::size_t n = as_size(graph.n_nodes());
   NodeWork work{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   // The work of the elements at each node, then that of its row of the matrix and of contact.
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -118,8 +115,8 @@ NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock
     const int nn = node_count(blocks[b]->shape);
     const double entries = nn * static_cast<double>(stiffness_rule(blocks[b]->shape).size());
     for (const Index i : blocks[b]->nodes) {
-      work.heat[at(i)] += entries * k_heat_element;
-      if (mechanics) work.mechanics[at(i)] += entries * k_mechanics_element;
+      work.heat[as_size(i)] += entries * k_heat_element;
+      if (mechanics) work.mechanics[as_size(i)] += entries * k_mechanics_element;
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -132,13 +129,13 @@ NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock
 }
 
 std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work, int n_processes) {
-  const auto n = static_cast<std::size_t>(graph.n_nodes());
+  const auto n = as_size(graph.n_nodes());
   std::vector<int> owner(n, 0);
   if (n_processes == 1) return owner;
   // Fewer nodes than processes, or more edges than METIS can count, have no partition.
-  if (n < static_cast<std::size_t>(n_processes))
+  if (n < as_size(n_processes))
     throw InputError({}, "the mesh has fewer nodes than there are processes", "fewer processes");
-  if (graph.node.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
+  if (graph.node.size() > as_size(std::numeric_limits<idx_t>::max()))
     throw InputError({}, "the mesh is too large for this build of METIS", "METIS with 64-bit indices");
   // Where some bodies only conduct heat, both kinds of work are balanced separately.
   const bool only_heat = std::find(work.mechanics.begin(), work.mechanics.end(), 0.0) != work.mechanics.end();
@@ -193,12 +190,9 @@ std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::ve
   // Within each process nodes are numbered by reversed Cuthill and McKee's order, which keeps neighbours
   // close in memory and factors thin.
   const std::size_t n = owner.size();
-  const auto degree = [&graph](Index i) {
-    return graph.start[static_cast<std::size_t>(i) + 1] - graph.start[static_cast<std::size_t>(i)];
-  };
-  std::vector<std::vector<Index>> owned(static_cast<std::size_t>(n_processes));
-  for (std::size_t i = 0; i < n; ++i)
-    owned[static_cast<std::size_t>(owner[i])].push_back(static_cast<Index>(i));
+  const auto degree = [&graph](Index i) { return graph.start[as_size(i) + 1] - graph.start[as_size(i)]; };
+  std::vector<std::vector<Index>> owned(as_size(n_processes));
+  for (std::size_t i = 0; i < n; ++i) owned[as_size(owner[i])].push_back(as_index(i));
 
   std::vector<GlobalIndex> number(n, -1);
   std::vector<char> seen(n, 0);
@@ -210,16 +204,16 @@ std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::ve
     std::vector<Index> order, row;
     order.reserve(nodes.size());
     for (const Index seed : nodes) {  // one round for each connected piece, from a node of low degree
-      if (seen[static_cast<std::size_t>(seed)]) continue;
-      seen[static_cast<std::size_t>(seed)] = 1;
+      if (seen[as_size(seed)]) continue;
+      seen[as_size(seed)] = 1;
       std::size_t head = order.size();
       order.push_back(seed);
       for (; head < order.size(); ++head) {
-        const auto i = static_cast<std::size_t>(order[head]);
+        const auto i = as_size(order[head]);
         row.clear();
         for (std::int64_t k = graph.start[i]; k < graph.start[i + 1]; ++k) {
-          const Index j = graph.node[static_cast<std::size_t>(k)];
-          const auto jj = static_cast<std::size_t>(j);
+          const Index j = graph.node[as_size(k)];
+          const auto jj = as_size(j);
           if (seen[jj] || owner[jj] != owner[i]) continue;
           seen[jj] = 1;
           row.push_back(j);
@@ -229,7 +223,7 @@ std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::ve
       }
     }
     // Reversing the order makes factors of a profile smaller.
-    for (auto i = order.rbegin(); i != order.rend(); ++i) number[static_cast<std::size_t>(*i)] = next++;
+    for (auto i = order.rbegin(); i != order.rend(); ++i) number[as_size(*i)] = next++;
   }
   return number;
 }

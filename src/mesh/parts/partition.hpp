@@ -7,6 +7,7 @@
 
 #include "mesh/parts/distribute.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -14,7 +15,7 @@ namespace solidus::mesh {
 struct NodeNeighbours {
   std::vector<std::int64_t> start;  ///< of node i: node[start[i]] … node[start[i + 1] − 1]
   std::vector<Index> node;
-  Index n_nodes() const { return static_cast<Index>(start.size()) - 1; }
+  Index n_nodes() const { return as_index(start.size()) - 1; }
 };
 NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blocks);
 

@@ -7,15 +7,12 @@
 #include <vector>
 
 #include "mesh/refinement/vertex_tangents.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -32,8 +29,7 @@ using Ends = std::pair<GlobalIndex, GlobalIndex>;
 
 struct EndsHash {
   std::size_t operator()(const Ends& ends) const {
-    return static_cast<std::size_t>(ends.first) * 0x9E3779B97F4A7C15ULL +
-           static_cast<std::size_t>(ends.second);
+    return as_size(ends.first) * 0x9E3779B97F4A7C15ULL + as_size(ends.second);
   }
 };
 
@@ -63,7 +59,7 @@ std::optional<Point> rise(const std::optional<Point>& tangent, const Point& c, d
 /// From the middle of the edge to that of its arc; nothing where that is next to nothing, so that flat faces
 /// stay flat to the last bit.
 std::optional<Point> offset_of(const SkinEdge& edge, const Mesh& mesh) {
-  const Point &a = mesh.x[at(edge.a)], &b = mesh.x[at(edge.b)];
+  const Point &a = mesh.x[as_size(edge.a)], &b = mesh.x[as_size(edge.b)];
   Point c{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   const double length = std::sqrt(dot(c, c));
   for (double& component : c) component /= length;
@@ -89,7 +85,7 @@ void share_tangents(const Level& level, std::vector<SkinEdge>& edges) {
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const SkinEdge& edge = edges[k];
     const Index node = new_node_of(level, edge);
-    const Ends ends{mesh.global_node[at(edge.a)], mesh.global_node[at(edge.b)]};
+    const Ends ends{mesh.global_node[as_size(edge.a)], mesh.global_node[as_size(edge.b)]};
     if (level.is_mine(node)) {
       mine.emplace(ends, k);
       continue;
@@ -97,7 +93,7 @@ void share_tangents(const Level& level, std::vector<SkinEdge>& edges) {
     for (const bool of_a : {true, false}) {
       const std::optional<Point>& tangent = of_a ? edge.tangent_a : edge.tangent_b;
       if ((of_a ? edge.a : edge.b) < mesh.n_owned_nodes)
-        told[at(level.owner[at(node)])].push_back(
+        told[as_size(level.owner[as_size(node)])].push_back(
             {ends.first, ends.second, tangent.value_or(Point{}), of_a, tangent.has_value()});
     }
   }
@@ -122,16 +118,16 @@ std::unordered_map<Index, Point> arc_offsets(const Level& level, const Sharing& 
   std::vector<SkinEdge> edges = skin_edges(level.part.mesh, level.part.skin);
   share_tangents(level, edges);
   // Owners know both ends; then all who hold a node learn of its place.
-  std::vector<Point> all(at(level.n_nodes()), Point{});
+  std::vector<Point> all(as_size(level.n_nodes()), Point{});
   for (const SkinEdge& edge : edges) {
     const Index node = new_node_of(level, edge);
     if (!level.is_mine(node)) continue;
-    if (const std::optional<Point> offset = offset_of(edge, level.part.mesh)) all[at(node)] = *offset;
+    if (const std::optional<Point> offset = offset_of(edge, level.part.mesh)) all[as_size(node)] = *offset;
   }
   sharing.update(all);
   std::unordered_map<Index, Point> offsets;
   for (Index i = level.n_old(); i < level.n_nodes(); ++i)
-    if (all[at(i)] != Point{}) offsets.emplace(i, all[at(i)]);
+    if (all[as_size(i)] != Point{}) offsets.emplace(i, all[as_size(i)]);
   return offsets;
 }
 

@@ -5,15 +5,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A key that another process understands.
 struct Question {
@@ -25,11 +22,12 @@ struct Question {
 class LocalNumbers {
  public:
   explicit LocalNumbers(const Mesh& mesh) : mesh_(mesh) {
-    for (Index i = mesh.n_owned_nodes; i < mesh.n_nodes(); ++i) ghosts_.emplace(mesh.global_node[at(i)], i);
+    for (Index i = mesh.n_owned_nodes; i < mesh.n_nodes(); ++i)
+      ghosts_.emplace(mesh.global_node[as_size(i)], i);
   }
   Index of(GlobalIndex number) const {
     const GlobalIndex owned = number - mesh_.first_owned;
-    if (owned >= 0 && owned < mesh_.n_owned_nodes) return static_cast<Index>(owned);
+    if (owned >= 0 && owned < mesh_.n_owned_nodes) return as_index(owned);
     const auto ghost = ghosts_.find(number);
     return ghost == ghosts_.end() ? -1 : ghost->second;
   }
@@ -43,13 +41,13 @@ Question question_of(const Level& level, Index node) {
   const InputNumbers& global = level.part.mesh.global_node;
   Question question;
   if (node < level.n_old()) {
-    question.vertex[0] = global[at(node)];
+    question.vertex[0] = global[as_size(node)];
     return question;
   }
   const NodeKey& key = level.table.key(node);
   question.code = key.code;
   for (std::size_t i = 0; i < 4; ++i)
-    if (key.vertex[i] >= 0) question.vertex[i] = global[at(key.vertex[i])];
+    if (key.vertex[i] >= 0) question.vertex[i] = global[as_size(key.vertex[i])];
   return question;
 }
 
@@ -69,24 +67,24 @@ Index answer_to(const Question& question, const Level& level, const LocalNumbers
 
 std::vector<std::vector<char>> exchange(std::vector<std::vector<char>> messages) {
   const int n = processes::count(), rank = processes::rank();
-  std::vector<std::vector<char>> received(at(n));
+  std::vector<std::vector<char>> received(as_size(n));
   // In each round every process has one partner, which has it as its own; the lower one speaks first.
   for (int round = 0; round < n; ++round) {
     const int partner = (round - rank + n) % n;
     if (partner == rank) {
-      received[at(rank)] = std::move(messages[at(rank)]);
+      received[as_size(rank)] = std::move(messages[as_size(rank)]);
       continue;
     }
-    if (rank < partner) processes::send(messages[at(partner)], partner);
-    received[at(partner)] = processes::receive(partner);
-    if (rank > partner) processes::send(messages[at(partner)], partner);
+    if (rank < partner) processes::send(messages[as_size(partner)], partner);
+    received[as_size(partner)] = processes::receive(partner);
+    if (rank > partner) processes::send(messages[as_size(partner)], partner);
   }
   return received;
 }
 
 Sharing::Sharing(const Level& level) : given_(level.first.size() - 1), taken_(level.first.size() - 1) {
   for (Index i = 0; i < level.n_nodes(); ++i)
-    if (!level.is_mine(i)) taken_[at(level.owner[at(i)])].push_back(i);
+    if (!level.is_mine(i)) taken_[as_size(level.owner[as_size(i)])].push_back(i);
   // Each process asks the owners for the nodes that it holds of theirs.
   std::vector<std::vector<char>> messages;
   for (const std::vector<Index>& nodes : taken_) {

@@ -5,6 +5,7 @@
 
 #include "mesh/message.hpp"
 #include "mesh/refinement/level.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -30,7 +31,7 @@ class Sharing {
     for (const std::vector<Index>& nodes : given_) {
       std::vector<T> mine;
       mine.reserve(nodes.size());
-      for (const Index node : nodes) mine.push_back(values[static_cast<std::size_t>(node)]);
+      for (const Index node : nodes) mine.push_back(values[as_size(node)]);
       Packer packer;
       packer.put(mine);
       messages.push_back(std::move(packer).buffer());
@@ -39,8 +40,7 @@ class Sharing {
     for (std::size_t r = 0; r < messages.size(); ++r) {
       Unpacker unpacker(messages[r]);
       const auto theirs = unpacker.vector<T>();
-      for (std::size_t i = 0; i < theirs.size(); ++i)
-        values[static_cast<std::size_t>(taken_[r][i])] = theirs[i];
+      for (std::size_t i = 0; i < theirs.size(); ++i) values[as_size(taken_[r][i])] = theirs[i];
     }
   }
 

@@ -10,15 +10,12 @@
 
 #include "mesh/parts/partition.hpp"
 #include "mesh/refinement/placing.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Children of a block before they are sorted, with nodes of the level.
 using Kept = RawBlock;
@@ -26,7 +23,7 @@ using Kept = RawBlock;
 class Maker {
  public:
   Maker(const Level& level, const Sharing& sharing)
-      : level_(level), old_(level.part.mesh), sharing_(sharing), local_(at(level.n_nodes()), -1) {}
+      : level_(level), old_(level.part.mesh), sharing_(sharing), local_(as_size(level.n_nodes()), -1) {}
 
   Part make() {
     Part part;
@@ -56,7 +53,7 @@ class Maker {
   Kept children(const Cut& cut, bool all) const {
     const Lattice& lattice = lattice_of(cut.block->shape);
     Kept kept{cut.block->shape, {}, {}};
-    std::vector<Index> nodes(at(node_count(kept.shape)));
+    std::vector<Index> nodes(as_size(node_count(kept.shape)));
     for (Index e = 0; e < cut.block->size(); ++e) {
       const Index* of_lattice = cut.element(e);
       const bool known =
@@ -68,7 +65,7 @@ class Maker {
           continue;
         kept.nodes.insert(kept.nodes.end(), nodes.begin(), nodes.end());
         // Numbers of children follow one another, those of the first parent from one on.
-        kept.input_element.push_back((cut.block->input_element[at(e)] - 1) *
+        kept.input_element.push_back((cut.block->input_element[as_size(e)] - 1) *
                                          static_cast<GlobalIndex>(choice.size()) +
                                      static_cast<GlobalIndex>(c) + 1);
       }
@@ -83,8 +80,8 @@ class Maker {
     std::vector<Index> here;
     const auto meet = [&](const Kept& kept) {
       for (const Index node : kept.nodes)
-        if (local_[at(node)] < 0) {
-          local_[at(node)] = static_cast<Index>(here.size());
+        if (local_[as_size(node)] < 0) {
+          local_[as_size(node)] = as_index(here.size());
           here.push_back(node);
         }
     };
@@ -98,19 +95,19 @@ class Maker {
     processes::sum(std::span<std::int64_t>(&all, 1));
     mesh.n_global_nodes = all;
     mesh.first_owned = processes::sum_before(mine);
-    std::vector<GlobalIndex> global(at(level_.n_nodes()), -1), input = input_numbers();
-    for (Index i = 0; i < mesh.n_owned_nodes; ++i) global[at(order_[at(i)])] = mesh.first_owned + i;
+    std::vector<GlobalIndex> global(as_size(level_.n_nodes()), -1), input = input_numbers();
+    for (Index i = 0; i < mesh.n_owned_nodes; ++i) global[as_size(order_[as_size(i)])] = mesh.first_owned + i;
     sharing_.update(global);
     sharing_.update(input);
     // Copies follow in the order of their numbers.
     std::vector<Index> ghosts;
     std::ranges::copy_if(here, std::back_inserter(ghosts), [&](Index node) { return !is_mine(node); });
-    std::ranges::sort(ghosts, {}, [&](Index node) { return global[at(node)]; });
+    std::ranges::sort(ghosts, {}, [&](Index node) { return global[as_size(node)]; });
     order_.insert(order_.end(), ghosts.begin(), ghosts.end());
     std::ranges::fill(local_, -1);
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      const std::size_t node = at(order_[i]);
-      local_[node] = static_cast<Index>(i);
+      const std::size_t node = as_size(order_[i]);
+      local_[node] = as_index(i);
       mesh.x.push_back(level_.x[node]);
       mesh.global_node.push_back(global[node]);
       mesh.input_node.push_back(input[node]);
@@ -122,25 +119,25 @@ class Maker {
     std::vector<RawBlock> compact = volumes_;
     std::vector<const RawBlock*> pointers;
     for (RawBlock& block : compact) {
-      for (Index& node : block.nodes) node = local_[at(node)];
+      for (Index& node : block.nodes) node = local_[as_size(node)];
       pointers.push_back(&block);
     }
     // As two processes: what is owned comes before what is not.
     std::vector<int> owner;
     for (const Index node : here) owner.push_back(is_mine(node) ? 0 : 1);
-    mesh.n_owned_nodes = static_cast<Index>(std::ranges::count(owner, 0));
+    mesh.n_owned_nodes = as_index(std::ranges::count(owner, 0));
     const std::vector<GlobalIndex> number =
-        number_nodes(neighbours(static_cast<Index>(here.size()), pointers), owner, 2);
-    order_.assign(at(mesh.n_owned_nodes), -1);
+        number_nodes(neighbours(as_index(here.size()), pointers), owner, 2);
+    order_.assign(as_size(mesh.n_owned_nodes), -1);
     for (std::size_t i = 0; i < here.size(); ++i)
-      if (owner[i] == 0) order_[at(number[i])] = here[i];
+      if (owner[i] == 0) order_[as_size(number[i])] = here[i];
   }
 
   /// Old nodes keep their numbers; of a new one it follows from the element that places it.
   std::vector<GlobalIndex> input_numbers() const {
     std::int64_t last = 0, places = 0;
     std::vector<GlobalIndex> input;
-    input.reserve(at(level_.n_nodes()));
+    input.reserve(as_size(level_.n_nodes()));
     for (const GlobalIndex number : old_.input_node) {
       last = std::max(last, number);
       input.push_back(number);
@@ -158,8 +155,8 @@ class Maker {
         input.push_back(-1);  // its owner tells
         continue;
       }
-      const ElementBlock& block = old_.blocks[at(s.block)];
-      input.push_back(last + 1 + (block.input_element[at(s.element)] - 1) * places + s.point -
+      const ElementBlock& block = old_.blocks[as_size(s.block)];
+      input.push_back(last + 1 + (block.input_element[as_size(s.element)] - 1) * places + s.point -
                       node_count(block.shape));
     }
     return input;
@@ -168,16 +165,16 @@ class Maker {
   /// Elements in the order of their lowest nodes, first those that this process counts: whose lowest node is
   /// its own.
   ElementBlock sorted(Kept kept, int body, const Mesh& mesh) const {
-    const auto nn = at(node_count(kept.shape));
+    const auto nn = as_size(node_count(kept.shape));
     const std::size_t n = kept.nodes.size() / nn;
-    for (Index& node : kept.nodes) node = local_[at(node)];
+    for (Index& node : kept.nodes) node = local_[as_size(node)];
     std::vector<std::pair<GlobalIndex, std::size_t>> order(n);
     const GlobalIndex end = mesh.first_owned + mesh.n_owned_nodes;
     Index n_counted = 0;
     for (std::size_t e = 0; e < n; ++e) {
-      GlobalIndex lowest = mesh.global_node[at(kept.nodes[e * nn])];
+      GlobalIndex lowest = mesh.global_node[as_size(kept.nodes[e * nn])];
       for (std::size_t a = 1; a < nn; ++a)
-        lowest = std::min(lowest, mesh.global_node[at(kept.nodes[e * nn + a])]);
+        lowest = std::min(lowest, mesh.global_node[as_size(kept.nodes[e * nn + a])]);
       const bool counts = lowest >= mesh.first_owned && lowest < end;
       n_counted += counts ? 1 : 0;
       // Others go behind those that count.
@@ -196,7 +193,7 @@ class Maker {
   }
 
   ElementBlock local_block(Kept kept) const {
-    for (Index& node : kept.nodes) node = node < 0 ? -1 : local_[at(node)];
+    for (Index& node : kept.nodes) node = node < 0 ? -1 : local_[as_size(node)];
     return {kept.shape, -1, std::move(kept.nodes), std::move(kept.input_element), 0};
   }
 
@@ -215,14 +212,14 @@ class Maker {
   /// Nodes of a named set: old ones, and those of the elements of the group that the set is of. Own nodes are
   /// judged here, where all elements around them are; copies as their owners say.
   std::vector<char> members(const std::string& name, const std::vector<Index>& old) const {
-    std::vector<char> is_in(at(level_.n_nodes()), 0);
-    for (const Index node : old) is_in[at(node)] = 1;
+    std::vector<char> is_in(as_size(level_.n_nodes()), 0);
+    for (const Index node : old) is_in[as_size(node)] = 1;
     const auto add = [&](const Cut& cut) {
       for (const Index node : cut.nodes)
-        if (node >= 0) is_in[at(node)] = 1;
+        if (node >= 0) is_in[as_size(node)] = 1;
     };
     for (const Cut& cut : level_.volumes)
-      if (old_.bodies[at(cut.block->body)].name == name) add(cut);
+      if (old_.bodies[as_size(cut.block->body)].name == name) add(cut);
     for (const auto* groups : {&level_.faces, &level_.others})
       if (const auto cuts = groups->find(name); cuts != groups->end())
         for (const Cut& cut : cuts->second) add(cut);
@@ -235,7 +232,7 @@ class Maker {
       sharing_.update(is_in);
       std::vector<Index>& set = mesh.node_sets[name];
       for (std::size_t i = 0; i < order_.size(); ++i)
-        if (is_in[at(order_[i])] != 0) set.push_back(static_cast<Index>(i));
+        if (is_in[as_size(order_[i])] != 0) set.push_back(as_index(i));
     }
   }
 

@@ -8,6 +8,7 @@
 
 #include "mesh/quadrature.hpp"
 #include "mesh/shape_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -17,21 +18,17 @@ using Quarters = std::array<int, 3>;
 
 constexpr std::array<int, 8> k_bits{0, 1, 3, 2, 4, 5, 7, 6};
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Reference coordinates from 0 to 1, in quarters.
 Quarters quarters_of(bool simplex, int dim, const Point& xi) {
   Quarters q{};
-  for (std::size_t i = 0; i < at(dim); ++i)
+  for (std::size_t i = 0; i < as_size(dim); ++i)
     q[i] = static_cast<int>(std::lround(simplex ? 4 * xi[i] : 2 * (xi[i] + 1)));
   return q;
 }
 
 Point place_of(bool simplex, int dim, const Quarters& q) {
   Point xi{};
-  for (std::size_t i = 0; i < at(dim); ++i) xi[i] = simplex ? q[i] / 4.0 : q[i] / 2.0 - 1;
+  for (std::size_t i = 0; i < as_size(dim); ++i) xi[i] = simplex ? q[i] / 4.0 : q[i] / 2.0 - 1;
   return xi;
 }
 
@@ -40,7 +37,7 @@ void locate_in_simplex(int dim, LatticePoint& point) {
   Quarters q = point.quarters;
   const int first = 4 - q[0] - q[1] - q[2];
   for (int v = 0; v <= dim; ++v)
-    if (const int weight = v == 0 ? first : q[at(v - 1)]; weight > 0) {
+    if (const int weight = v == 0 ? first : q[as_size(v - 1)]; weight > 0) {
       point.vertices.push_back(v);
       point.weights.push_back(static_cast<std::uint8_t>(weight));
     }
@@ -52,7 +49,7 @@ void locate_in_cube(int dim, LatticePoint& point) {
   for (int v = 0; v < 1 << dim; ++v) {
     int weight = 1;
     for (int i = 0; i < dim; ++i) {
-      const int q = point.quarters[at(i)];
+      const int q = point.quarters[as_size(i)];
       const bool upper = (corner_bits(v) >> i & 1) != 0;
       if (q == 0 || q == 4)
         weight *= upper == (q == 4) ? 1 : 0;
@@ -114,7 +111,7 @@ class Maker {
       for (const QuadraturePoint& node : nodes_) {
         Point xi{};
         for (int i = 0; i < dim_; ++i)
-          xi[at(i)] = (node.xi[at(i)] + ((corner_bits(c) >> i & 1) != 0 ? 1 : -1)) / 2;
+          xi[as_size(i)] = (node.xi[as_size(i)] + ((corner_bits(c) >> i & 1) != 0 ? 1 : -1)) / 2;
         child.push_back(point_at(quarters_of(false, dim_, xi)));
       }
     }
@@ -136,11 +133,11 @@ class Maker {
     std::vector<int> child;
     for (const QuadraturePoint& node : nodes_) {
       Point xi{};
-      for (std::size_t i = 0; i < at(dim_); ++i) {
+      for (std::size_t i = 0; i < as_size(dim_); ++i) {
         double first = 1;
-        for (std::size_t k = 0; k < at(dim_); ++k) first -= node.xi[k];
+        for (std::size_t k = 0; k < as_size(dim_); ++k) first -= node.xi[k];
         xi[i] = first * vertices[0][i];
-        for (std::size_t k = 0; k < at(dim_); ++k) xi[i] += node.xi[k] * vertices[k + 1][i];
+        for (std::size_t k = 0; k < as_size(dim_); ++k) xi[i] += node.xi[k] * vertices[k + 1][i];
         xi[i] /= 4;
       }
       child.push_back(point_at(quarters_of(true, dim_, xi)));
@@ -150,7 +147,7 @@ class Maker {
 
   Quarters vertex(int v) const {
     Quarters q{};
-    if (v > 0) q[at(v - 1)] = 4;
+    if (v > 0) q[as_size(v - 1)] = 4;
     return q;
   }
   Quarters middle(int v, int w) const {
@@ -197,11 +194,11 @@ class Maker {
 }  // namespace
 
 int corner_bits(int vertex) {
-  return k_bits[at(vertex)];
+  return k_bits[as_size(vertex)];
 }
 
 int vertex_at(int bits) {
-  return k_bits[at(bits)];  // the exchange of two pairs is its own reverse
+  return k_bits[as_size(bits)];  // the exchange of two pairs is its own reverse
 }
 
 const Lattice& lattice_of(Shape shape) {

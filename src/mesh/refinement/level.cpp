@@ -3,22 +3,19 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// @param node_of  node at a key
 template <class NodeOf>
 Cut cut(const ElementBlock& block, const InputNumbers& global, NodeOf&& node_of) {
   const Lattice& lattice = lattice_of(block.shape);
   Cut made{&block, {}};
-  made.nodes.reserve(at(block.size()) * lattice.points.size());
+  made.nodes.reserve(as_size(block.size()) * lattice.points.size());
   for (Index e = 0; e < block.size(); ++e) {
     const Index* nodes = block.element(e);
     for (const LatticePoint& point : lattice.points) {
@@ -42,20 +39,20 @@ Level::Level(const Part& of) : part(of), table(of.mesh.n_nodes()), rank_(process
   cut_all();
   find_sources();
   // Owners of old nodes stay; a new one goes to the owner of one of its vertices.
-  owner.reserve(at(n_nodes()));
-  for (Index i = 0; i < n_old(); ++i) owner.push_back(owner_of(mesh.global_node[at(i)]));
+  owner.reserve(as_size(n_nodes()));
+  for (Index i = 0; i < n_old(); ++i) owner.push_back(owner_of(mesh.global_node[as_size(i)]));
   for (Index i = n_old(); i < n_nodes(); ++i) owner.push_back(owner_of(table.key(i)));
   // New nodes lie where the element's own functions say: for straight edges in their middles.
   x = mesh.x;
-  x.resize(at(n_nodes()), Point{});
+  x.resize(as_size(n_nodes()), Point{});
   for (Index i = n_old(); i < n_nodes(); ++i) {
-    const Source& s = source[at(i - n_old())];
+    const Source& s = source[as_size(i - n_old())];
     if (s.block < 0) continue;  // its owner tells
-    const ElementBlock& block = mesh.blocks[at(s.block)];
-    const std::vector<double>& basis = lattice_of(block.shape).basis[at(s.point)];
+    const ElementBlock& block = mesh.blocks[as_size(s.block)];
+    const std::vector<double>& basis = lattice_of(block.shape).basis[as_size(s.point)];
     const Index* nodes = block.element(s.element);
     for (std::size_t a = 0; a < basis.size(); ++a)
-      for (std::size_t k = 0; k < 3; ++k) x[at(i)][k] += basis[a] * mesh.x[at(nodes[a])][k];
+      for (std::size_t k = 0; k < 3; ++k) x[as_size(i)][k] += basis[a] * mesh.x[as_size(nodes[a])][k];
   }
 }
 
@@ -71,9 +68,9 @@ int Level::owner_of(const NodeKey& key) const {
   for (const Index v : key.vertex)
     if (v >= 0) {
       ++n;
-      sum += static_cast<std::uint64_t>(part.mesh.global_node[at(v)]);
+      sum += static_cast<std::uint64_t>(part.mesh.global_node[as_size(v)]);
     }
-  return owner_of(part.mesh.global_node[at(key.vertex[(sum ^ sum >> 3) % n])]);
+  return owner_of(part.mesh.global_node[as_size(key.vertex[(sum ^ sum >> 3) % n])]);
 }
 
 void Level::cut_all() {
@@ -90,9 +87,9 @@ void Level::cut_all() {
 }
 
 void Level::find_sources() {
-  source.assign(at(table.size()), {});
+  source.assign(as_size(table.size()), {});
   const auto number = [&](const Source& s) {
-    return part.mesh.blocks[at(s.block)].input_element[at(s.element)];
+    return part.mesh.blocks[as_size(s.block)].input_element[as_size(s.element)];
   };
   for (std::size_t b = 0; b < volumes.size(); ++b) {
     const Cut& c = volumes[b];
@@ -101,7 +98,7 @@ void Level::find_sources() {
       for (std::int32_t p = 0; p < n_points; ++p) {
         const Index node = c.element(e)[p];
         if (node < n_old()) continue;
-        Source& best = source[at(node - n_old())];
+        Source& best = source[as_size(node - n_old())];
         const Source here{static_cast<std::int32_t>(b), e, p};
         if (best.block < 0 || number(here) < number(best)) best = here;
       }

@@ -9,6 +9,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/refinement/node_table.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -58,7 +59,7 @@ struct Level {
 
   Index n_old() const { return part.mesh.n_nodes(); }
   Index n_nodes() const { return n_old() + table.size(); }
-  bool is_mine(Index node) const { return owner[static_cast<std::size_t>(node)] == rank_; }
+  bool is_mine(Index node) const { return owner[as_size(node)] == rank_; }
   /// The process that owns a node of the mesh that is refined.
   int owner_of(GlobalIndex number) const;
   /// The process that owns a new node.

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at_(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::uint64_t hash_of(const NodeKey& key) {
   std::uint64_t h = key.code;
@@ -25,15 +23,15 @@ std::uint64_t hash_of(const NodeKey& key) {
 NodeKey inner_key(const LatticePoint& point, const Index* nodes, const InputNumbers& global) {
   // From the vertex of the lowest number on, coordinates go along its three edges, in the order of the
   // numbers at their other ends: so the code does not depend on how the element lists its nodes.
-  const auto number = [&](int v) { return global[at_(nodes[v])]; };
+  const auto number = [&](int v) { return global[as_size(nodes[v])]; };
   int lowest = 0;
   for (int v = 1; v < 8; ++v)
     if (number(v) < number(lowest)) lowest = v;
   const int bits = corner_bits(lowest);
   std::array<std::pair<GlobalIndex, int>, 3> axes{};
   for (int i = 0; i < 3; ++i) {
-    const int q = point.quarters[at_(i)];
-    axes[at_(i)] = {number(vertex_at(bits ^ 1 << i)), (bits >> i & 1) != 0 ? 4 - q : q};
+    const int q = point.quarters[as_size(i)];
+    axes[as_size(i)] = {number(vertex_at(bits ^ 1 << i)), (bits >> i & 1) != 0 ? 4 - q : q};
   }
   std::sort(axes.begin(), axes.end());
   constexpr std::uint32_t k_within = 0xC0000000U;  // no weights have these bits
@@ -54,7 +52,7 @@ NodeKey key_of(const LatticePoint& point, const Index* nodes, const InputNumbers
   if (n == 8) return inner_key(point, nodes, global);
   // Pairs of vertex and weight in the order of the vertices' numbers over all processes.
   std::array<std::pair<GlobalIndex, std::size_t>, 4> order{};
-  for (std::size_t i = 0; i < n; ++i) order[i] = {global[at_(nodes[point.vertices[i]])], i};
+  for (std::size_t i = 0; i < n; ++i) order[i] = {global[as_size(nodes[point.vertices[i]])], i};
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t k = order[i].second;
@@ -66,13 +64,13 @@ NodeKey key_of(const LatticePoint& point, const Index* nodes, const InputNumbers
 
 std::size_t NodeTable::slot_of(const NodeKey& key) const {
   std::size_t slot = hash_of(key) & (slots_.size() - 1);
-  while (slots_[slot] >= 0 && !(keys_[at_(slots_[slot])] == key)) slot = (slot + 1) & (slots_.size() - 1);
+  while (slots_[slot] >= 0 && !(keys_[as_size(slots_[slot])] == key)) slot = (slot + 1) & (slots_.size() - 1);
   return slot;
 }
 
 void NodeTable::grow() {
   slots_.assign(2 * slots_.size(), -1);
-  for (std::size_t i = 0; i < keys_.size(); ++i) slots_[slot_of(keys_[i])] = static_cast<Index>(i);
+  for (std::size_t i = 0; i < keys_.size(); ++i) slots_[slot_of(keys_[i])] = as_index(i);
 }
 
 Index NodeTable::at(const NodeKey& key) {
@@ -83,7 +81,7 @@ Index NodeTable::at(const NodeKey& key) {
       grow();
       slot = slot_of(key);
     }
-    slots_[slot] = static_cast<Index>(keys_.size());
+    slots_[slot] = as_index(keys_.size());
     keys_.push_back(key);
   }
   return first_ + slots_[slot];

@@ -9,6 +9,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/refinement/lattice.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -39,8 +40,8 @@ class NodeTable {
   Index find(const NodeKey& key) const;
 
   Index first() const { return first_; }
-  Index size() const { return static_cast<Index>(keys_.size()); }
-  const NodeKey& key(Index node) const { return keys_[static_cast<std::size_t>(node - first_)]; }
+  Index size() const { return as_index(keys_.size()); }
+  const NodeKey& key(Index node) const { return keys_[as_size(node - first_)]; }
 
  private:
   std::size_t slot_of(const NodeKey& key) const;

@@ -8,15 +8,12 @@
 #include <vector>
 
 #include "mesh/quadrature.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A child keeps at least this part of the Jacobian that it has between straight edges.
 constexpr double k_least_share = 0.25;
@@ -32,7 +29,7 @@ double squared_distance(const Point& a, const Point& b) {
 double jacobian(Shape shape, std::span<const Point> x, const Point& xi) {
   std::array<double, 60> g{};
   basis_gradients(shape, xi, g);
-  const auto dim = at(dimension(shape));
+  const auto dim = as_size(dimension(shape));
   std::array<std::array<double, 3>, 3> j{};
   for (std::size_t a = 0; a < x.size(); ++a)
     for (std::size_t i = 0; i < dim; ++i)
@@ -83,7 +80,8 @@ class Placing {
 
   void move() {
     for (const auto& [node, offset] : offsets_)
-      for (std::size_t i = 0; i < 3; ++i) level_.x[at(node)][i] = straight_[at(node)][i] + offset[i];
+      for (std::size_t i = 0; i < 3; ++i)
+        level_.x[as_size(node)][i] = straight_[as_size(node)][i] + offset[i];
     for (const auto& [b, e] : touched_) {
       const Cut& cut = level_.volumes[b];
       const Lattice& lattice = lattice_of(cut.block->shape);
@@ -98,8 +96,8 @@ class Placing {
   void move_inner(const Cut& cut, Index e, std::size_t p, double share) {
     const Lattice& lattice = lattice_of(cut.block->shape);
     const Index node = cut.element(e)[p];
-    const Source& source = level_.source[at(node - level_.n_old())];
-    if (level_.volumes[at(source.block)].block != cut.block || source.element != e) return;
+    const Source& source = level_.source[as_size(node - level_.n_old())];
+    if (level_.volumes[as_size(source.block)].block != cut.block || source.element != e) return;
     const std::vector<int>& vertices = lattice.points[p].vertices;
     Point sum{};
     for (std::size_t q = 0; q < lattice.points.size(); ++q) {
@@ -112,7 +110,8 @@ class Placing {
       if (offset == offsets_.end()) continue;
       for (std::size_t i = 0; i < 3; ++i) sum[i] += offset->second[i];
     }
-    for (std::size_t i = 0; i < 3; ++i) level_.x[at(node)][i] = straight_[at(node)][i] + share * sum[i];
+    for (std::size_t i = 0; i < 3; ++i)
+      level_.x[as_size(node)][i] = straight_[as_size(node)][i] + share * sum[i];
   }
 
   /// Nodes of edges with offsets, of this process' own, around elements of which a child is folded.
@@ -136,12 +135,12 @@ class Placing {
     const Rule corners = nodal_rule(shape);
     // The Jacobian of a linear simplex is the same everywhere.
     const bool simplex = vertex_count(shape) == dimension(shape) + 1;
-    const auto n = at(node_count(shape));
+    const auto n = as_size(node_count(shape));
     std::vector<Point> moved(n), straight(n);
     for (const std::vector<int>& child : lattice.choices[choice_of(lattice, nodes, level_.x)]) {
       for (std::size_t a = 0; a < n; ++a) {
-        moved[a] = level_.x[at(nodes[child[a]])];
-        straight[a] = straight_[at(nodes[child[a]])];
+        moved[a] = level_.x[as_size(nodes[child[a]])];
+        straight[a] = straight_[as_size(nodes[child[a]])];
       }
       for (std::size_t a = 0; a < (simplex ? 1 : n); ++a) {
         const double j = jacobian(shape, straight, corners[a].xi);
@@ -153,12 +152,12 @@ class Placing {
 
   /// Takes back the offsets of nodes that their owners name.
   void take_back(const std::vector<Index>& mine) {
-    std::vector<char> back(at(level_.n_nodes()), 0);
-    for (const Index node : mine) back[at(node)] = 1;
+    std::vector<char> back(as_size(level_.n_nodes()), 0);
+    for (const Index node : mine) back[as_size(node)] = 1;
     sharing_.update(back);
     std::erase_if(offsets_, [&](const auto& offset) {
-      if (back[at(offset.first)] == 0) return false;
-      level_.x[at(offset.first)] = straight_[at(offset.first)];
+      if (back[as_size(offset.first)] == 0) return false;
+      level_.x[as_size(offset.first)] = straight_[as_size(offset.first)];
       return true;
     });
   }
@@ -177,7 +176,7 @@ std::size_t choice_of(const Lattice& lattice, const Index* nodes, std::span<cons
   double least = 0;
   for (std::size_t i = 0; i < lattice.diagonals.size(); ++i) {
     const auto [a, b] = lattice.diagonals[i];
-    const double d = squared_distance(x[at(nodes[a])], x[at(nodes[b])]);
+    const double d = squared_distance(x[as_size(nodes[a])], x[as_size(nodes[b])]);
     if (i > 0 && !(d < least)) continue;
     best = i;
     least = d;

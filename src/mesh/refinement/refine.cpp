@@ -18,16 +18,13 @@
 #include "mesh/refinement/fine_part.hpp"
 #include "mesh/refinement/placing.hpp"
 #include "mesh/refinement/skin_faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Tells all processes the other groups; each keeps the elements of which it has a node.
 std::map<std::string, std::vector<ElementBlock>> others_of(const Mesh& mesh,
@@ -48,9 +45,9 @@ std::map<std::string, std::vector<ElementBlock>> others_of(const Mesh& mesh,
     const std::string name = unpacker.string();
     ElementBlock block{static_cast<Shape>(unpacker.size()), -1, {}, {}, 0};
     if (local.empty())
-      for (Index i = 0; i < mesh.n_nodes(); ++i) local.emplace(mesh.input_node[at(i)], i);
+      for (Index i = 0; i < mesh.n_nodes(); ++i) local.emplace(mesh.input_node[as_size(i)], i);
     const auto nodes = unpacker.vector<GlobalIndex>();
-    const auto nn = at(node_count(block.shape));
+    const auto nn = as_size(node_count(block.shape));
     for (std::size_t e = 0; e + nn <= nodes.size(); e += nn) {
       std::vector<Index> here;
       for (std::size_t a = 0; a < nn; ++a) {
@@ -79,9 +76,9 @@ std::vector<OtherGroup> prepare_refinement(RawMesh& raw, const std::vector<std::
   for (const std::string& body : bodies)
     for (RawBlock& block : raw.groups.at(body).blocks) {
       block.input_element.clear();
-      const std::size_t n = block.nodes.size() / at(node_count(block.shape));
+      const std::size_t n = block.nodes.size() / as_size(node_count(block.shape));
       for (std::size_t e = 0; e < n; ++e) block.input_element.push_back(next++);
-      for (const Index node : block.nodes) used[at(node)] = 1;
+      for (const Index node : block.nodes) used[as_size(node)] = 1;
     }
   // Nodes keep their numbers unless two have the same one, or one has none above zero.
   std::unordered_set<GlobalIndex> seen;
@@ -98,11 +95,11 @@ std::vector<OtherGroup> prepare_refinement(RawMesh& raw, const std::vector<std::
     for (const RawBlock& block : group.blocks) {
       // Elements that lie on no body take no part.
       OtherGroup other{name, block.shape, {}};
-      const auto nn = at(node_count(block.shape));
+      const auto nn = as_size(node_count(block.shape));
       for (std::size_t e = 0; e < block.nodes.size(); e += nn) {
         const auto nodes = std::span(block.nodes).subspan(e, nn);
-        if (std::ranges::any_of(nodes, [&](Index node) { return used[at(node)] == 0; })) continue;
-        for (const Index node : nodes) other.nodes.push_back(raw.input_node[at(node)]);
+        if (std::ranges::any_of(nodes, [&](Index node) { return used[as_size(node)] == 0; })) continue;
+        for (const Index node : nodes) other.nodes.push_back(raw.input_node[as_size(node)]);
       }
       if (!other.nodes.empty()) others.push_back(std::move(other));
     }

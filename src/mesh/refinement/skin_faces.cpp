@@ -5,14 +5,11 @@
 #include <array>
 
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr int k_most_faces = 6;  // of an element
 
@@ -36,27 +33,27 @@ std::vector<ElementBlock> skin_faces(const Mesh& mesh) {
         const auto places = face_nodes(block.shape, f);
         bool mine = false;
         for (int k = 0; k < n_vertices; ++k) {
-          face[at(k)] = block.element(e)[places[at(k)]];
-          mine = mine || face[at(k)] < mesh.n_owned_nodes;
+          face[as_size(k)] = block.element(e)[places[as_size(k)]];
+          mine = mine || face[as_size(k)] < mesh.n_owned_nodes;
         }
         if (!mine) continue;
         const auto [place, is_new] =
-            found.emplace(face_key(face.data(), n_vertices), Found{static_cast<Index>(b), e, f, false});
+            found.emplace(face_key(face.data(), n_vertices), Found{as_index(b), e, f, false});
         if (is_new) continue;
         // Of two bodies the first one keeps the face.
         Found& before = place->second;
-        const int other = mesh.blocks[at(before.block)].body;
+        const int other = mesh.blocks[as_size(before.block)].body;
         if (other == block.body)
           before.inside = true;
         else if (block.body < other)
-          before = {static_cast<Index>(b), e, f, false};
+          before = {as_index(b), e, f, false};
       }
   }
   // Faces of one shape go into one block, with numbers that follow from those of their elements.
   std::vector<ElementBlock> blocks;
   for (const auto& [key, at_face] : found) {
     if (at_face.inside) continue;
-    const ElementBlock& parent = mesh.blocks[at(at_face.block)];
+    const ElementBlock& parent = mesh.blocks[as_size(at_face.block)];
     const Shape shape = face_shape(parent.shape);
     auto block = std::find_if(blocks.begin(), blocks.end(),
                               [&](const ElementBlock& made) { return made.shape == shape; });
@@ -66,7 +63,8 @@ std::vector<ElementBlock> skin_faces(const Mesh& mesh) {
     }
     for (const int a : face_nodes(parent.shape, at_face.face))
       block->nodes.push_back(parent.element(at_face.element)[a]);
-    block->input_element.push_back(parent.input_element[at(at_face.element)] * k_most_faces + at_face.face);
+    block->input_element.push_back(parent.input_element[as_size(at_face.element)] * k_most_faces +
+                                   at_face.face);
     ++block->n_counted;
   }
   return blocks;

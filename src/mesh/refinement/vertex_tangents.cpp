@@ -9,14 +9,11 @@
 #include <unordered_map>
 
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 Point minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -178,8 +175,8 @@ class Skin {
 
  private:
   bool is_mine(Index node) const { return node < mesh_.n_owned_nodes; }
-  GlobalIndex number(Index node) const { return mesh_.input_node[at(node)]; }
-  const Point& x(Index node) const { return mesh_.x[at(node)]; }
+  GlobalIndex number(Index node) const { return mesh_.input_node[as_size(node)]; }
+  const Point& x(Index node) const { return mesh_.x[as_size(node)]; }
 
   static std::vector<SkinFacet> facets_of(const std::vector<ElementBlock>& blocks) {
     std::vector<SkinFacet> facets;
@@ -188,7 +185,7 @@ class Skin {
       for (Index e = 0; e < block.size(); ++e) {
         SkinFacet& facet = facets.emplace_back();
         facet.n = n;
-        facet.number = block.input_element[at(e)];
+        facet.number = block.input_element[as_size(e)];
         std::copy_n(block.element(e), n, facet.vertices.begin());
       }
     }
@@ -202,7 +199,9 @@ class Skin {
   void find_normals() {
     if (mesh_.dimension != 3) return;
     for (const SkinFacet& f : facets_) {
-      const auto d = [&](int i, int j) { return minus(x(f.vertices[at(i)]), x(f.vertices[at(j)])); };
+      const auto d = [&](int i, int j) {
+        return minus(x(f.vertices[as_size(i)]), x(f.vertices[as_size(j)]));
+      };
       const Point n = f.n == 3 ? cross(d(1, 0), d(2, 0)) : cross(d(2, 0), d(3, 1));
       normals_.push_back(unit(n).value_or(Point{}));
     }
@@ -213,10 +212,9 @@ class Skin {
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       const SkinFacet& facet = facets_[f];
       for (int k = 0; k < (facet.n == 2 ? 1 : facet.n); ++k) {
-        const Index a = facet.vertices[at(k)], b = facet.vertices[at((k + 1) % facet.n)];
+        const Index a = facet.vertices[as_size(k)], b = facet.vertices[as_size((k + 1) % facet.n)];
         // Only edges with an end of this process have all their faces here.
-        if (is_mine(a) || is_mine(b))
-          sides_.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f), k});
+        if (is_mine(a) || is_mine(b)) sides_.push_back({std::min(a, b), std::max(a, b), as_index(f), k});
       }
     }
     std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
@@ -225,18 +223,18 @@ class Skin {
   }
 
   std::size_t corner(Index face, Index node) const {
-    const SkinFacet& f = facets_[at(face)];
+    const SkinFacet& f = facets_[as_size(face)];
     for (int k = 0; k < f.n; ++k)
-      if (f.vertices[at(k)] == node) return 4 * at(face) + at(k);
-    return 4 * at(face);
+      if (f.vertices[as_size(k)] == node) return 4 * as_size(face) + as_size(k);
+    return 4 * as_size(face);
   }
 
   bool join_if_smooth(const Side& one, const Side& other) {
-    const Index start_one = facets_[at(one.face)].vertices[at(one.place)],
-                start_other = facets_[at(other.face)].vertices[at(other.place)];
+    const Index start_one = facets_[as_size(one.face)].vertices[as_size(one.place)],
+                start_other = facets_[as_size(other.face)].vertices[as_size(other.place)];
     const int relative = start_one == start_other ? -1 : 1;
     constexpr double k_rounding = 1e-9;
-    if (relative * dot(normals_[at(one.face)], normals_[at(other.face)]) <
+    if (relative * dot(normals_[as_size(one.face)], normals_[as_size(other.face)]) <
         std::cos(k_smooth_bend) + k_rounding)
       return false;
     for (const Index end : {one.low, one.high})
@@ -251,8 +249,8 @@ class Skin {
     std::unordered_map<std::size_t, std::vector<std::size_t>> corners;
     for (std::size_t f = 0; f < facets_.size(); ++f)
       for (int k = 0; k < facets_[f].n; ++k)
-        if (is_mine(facets_[f].vertices[at(k)]))
-          corners[fans_.find(4 * f + at(k)).first].push_back(4 * f + at(k));
+        if (is_mine(facets_[f].vertices[as_size(k)]))
+          corners[fans_.find(4 * f + as_size(k)).first].push_back(4 * f + as_size(k));
     for (const auto& [fan, of_fan] : corners) {
       const Point& centre = x(vertex(of_fan.front()));
       Point sum{};
@@ -261,12 +259,12 @@ class Skin {
       for (const std::size_t c : of_fan) {
         const SkinFacet& facet = facets_[c / 4];
         const int k = static_cast<int>(c % 4);
-        const Point next = minus(x(facet.vertices[at((k + 1) % facet.n)]), centre),
-                    last = minus(x(facet.vertices[at((k + facet.n - 1) % facet.n)]), centre);
+        const Point next = minus(x(facet.vertices[as_size((k + 1) % facet.n)]), centre),
+                    last = minus(x(facet.vertices[as_size((k + facet.n - 1) % facet.n)]), centre);
         const double weight = first_sign * fans_.find(c).second / (dot(next, next) * dot(last, last));
         const Point n = cross(next, last);
         for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * n[i];
-        for (int j = 1; j < facet.n; ++j) around.push_back(facet.vertices[at((k + j) % facet.n)]);
+        for (int j = 1; j < facet.n; ++j) around.push_back(facet.vertices[as_size((k + j) % facet.n)]);
       }
       std::vector<Point> points;
       for (std::size_t i = 0; i < around.size(); ++i)

@@ -9,6 +9,7 @@
 #include "mesh/local_system.hpp"
 #include "mesh/surfaces/face_walk.hpp"
 #include "mesh/surfaces/vertex_sets.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -17,8 +18,7 @@ namespace {
 std::size_t count_faces(const RawGroup& group) {
   std::size_t n = 0;
   for (const RawBlock& block : group.blocks)
-    n += block.nodes.size() / static_cast<std::size_t>(node_count(block.shape)) *
-         static_cast<std::size_t>(face_count(block.shape));
+    n += block.nodes.size() / as_size(node_count(block.shape)) * as_size(face_count(block.shape));
   return n;
 }
 
@@ -27,9 +27,9 @@ std::vector<Point> middles_of_some(const RawMesh& mesh, const RawGroup& group) {
   std::vector<Point> middles;
   constexpr std::size_t k_samples = 40;
   for (const RawBlock& block : group.blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape)), n_elements = block.nodes.size() / n;
+    const auto n = as_size(node_count(block.shape)), n_elements = block.nodes.size() / n;
     const std::size_t step = std::max<std::size_t>(1, n_elements / k_samples);
-    const auto n_vertices = static_cast<std::size_t>(vertex_count(block.shape));
+    const auto n_vertices = as_size(vertex_count(block.shape));
     for (std::size_t e = 0; e < n_elements; e += step)
       middles.push_back(middle_of(mesh, std::span(block.nodes).subspan(e * n, n_vertices)));
   }
@@ -87,7 +87,7 @@ class RayCount {
   int crosses_face(const Point& x, const OuterFace& face) const {
     const Point& p = point_of(mesh_, face.nodes[0]);
     int n = 0;
-    for (std::size_t a = 1; a + 1 < static_cast<std::size_t>(vertex_count(face.shape)); ++a) {
+    for (std::size_t a = 1; a + 1 < as_size(vertex_count(face.shape)); ++a) {
       const Point u = difference(point_of(mesh_, face.nodes[a]), p),
                   v = difference(point_of(mesh_, face.nodes[a + 1]), p), w = difference(x, p);
       const Point h = cross_product(ray_, v);
@@ -117,7 +117,7 @@ std::vector<Face> outer_faces(const RawMesh& mesh, const std::string& body) {
   const std::vector<Index> first = first_equal_set(sets);
   std::vector<char> shared(sets.size(), 0);
   for (std::size_t k = 0; k < sets.size(); ++k)
-    if (const auto other = static_cast<std::size_t>(first[k]); other != k) shared[k] = shared[other] = 1;
+    if (const auto other = as_size(first[k]); other != k) shared[k] = shared[other] = 1;
   std::vector<Face> outer;
   std::size_t k = 0;
   for_each_face(mesh, body, [&](std::span<const Index>, const Face& face) {

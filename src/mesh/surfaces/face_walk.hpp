@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
 inline const Point& point_of(const RawMesh& mesh, Index node) {
-  return mesh.x[static_cast<std::size_t>(node)];
+  return mesh.x[as_size(node)];
 }
 
 /// The mean of the points of some nodes [m].
@@ -26,8 +27,7 @@ inline Point middle_of(const RawMesh& mesh, std::span<const Index> nodes) {
 template <class Function>
 void for_each_element(const RawGroup& group, Function f) {
   for (const RawBlock& block : group.blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape)),
-               n_vertices = static_cast<std::size_t>(vertex_count(block.shape));
+    const auto n = as_size(node_count(block.shape)), n_vertices = as_size(vertex_count(block.shape));
     for (std::size_t first = 0; first + n <= block.nodes.size(); first += n) {
       const std::span<const Index> nodes = std::span(block.nodes).subspan(first, n);
       f(nodes, nodes.first(n_vertices));
@@ -44,7 +44,7 @@ struct Face {
 
   std::vector<Index> nodes() const {  ///< of the face
     std::vector<Index> result;
-    for (const int a : places) result.push_back(element[static_cast<std::size_t>(a)]);
+    for (const int a : places) result.push_back(element[as_size(a)]);
     return result;
   }
 };
@@ -54,15 +54,15 @@ template <class Function>
 void for_each_face(const RawMesh& mesh, const std::string& body, Function f) {
   std::array<Index, 4> vertices{};
   for (const RawBlock& block : mesh.groups.at(body).blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape));
+    const auto n = as_size(node_count(block.shape));
     const Shape shape = face_shape(block.shape);
-    const auto n_vertices = static_cast<std::size_t>(vertex_count(shape));
+    const auto n_vertices = as_size(vertex_count(shape));
     std::vector<std::span<const int>> places;
     for (int k = 0; k < face_count(block.shape); ++k) places.push_back(face_nodes(block.shape, k));
     for (std::size_t first = 0; first + n <= block.nodes.size(); first += n) {
       const std::span<const Index> element = std::span(block.nodes).subspan(first, n);
       for (const std::span<const int> face : places) {
-        for (std::size_t a = 0; a < n_vertices; ++a) vertices[a] = element[static_cast<std::size_t>(face[a])];
+        for (std::size_t a = 0; a < n_vertices; ++a) vertices[a] = element[as_size(face[a])];
         f(std::span<const Index>(vertices.data(), n_vertices), Face{shape, block.shape, element, face});
       }
     }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -18,7 +19,7 @@ struct FaceKey {
 struct FaceKeyHash {
   std::size_t operator()(const FaceKey& k) const {
     std::size_t h = 0;
-    for (const Index v : k.vertices) h = h * 0x9E3779B97F4A7C15ULL + static_cast<std::size_t>(v) + (h >> 29);
+    for (const Index v : k.vertices) h = h * 0x9E3779B97F4A7C15ULL + as_size(v) + (h >> 29);
     return h;
   }
 };

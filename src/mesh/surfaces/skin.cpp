@@ -7,6 +7,7 @@
 
 #include "mesh/surfaces/body_skin.hpp"
 #include "mesh/surfaces/face_walk.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::mesh {
@@ -96,10 +97,10 @@ std::vector<SkinFace> skin_of(const RawMesh& mesh, const std::string& body) {
     face.shape = outer.shape;
     face.nodes = outer.nodes();
     for (int i = 0; i < vertex_count(face.shape); ++i)
-      face.corners.push_back(point_of(mesh, face.nodes[static_cast<std::size_t>(i)]));
+      face.corners.push_back(point_of(mesh, face.nodes[as_size(i)]));
     measure(face);
     // Elements may be mirrored before validate_and_orient(): outward is away from the element's centre.
-    const auto n_vertices = static_cast<std::size_t>(vertex_count(outer.element_shape));
+    const auto n_vertices = as_size(vertex_count(outer.element_shape));
     const Point inside = middle_of(mesh, outer.element.first(n_vertices));
     if (dot(face.normal, face.centre - inside) < 0)
       for (double& c : face.normal) c = -c;
@@ -189,12 +190,10 @@ double area_of(const RawMesh& mesh, const std::string& surface) {
   const auto group = mesh.groups.find(surface);
   if (group == mesh.groups.end() || group->second.dimension != mesh.dimension - 1) return area;
   for (const RawBlock& block : group->second.blocks) {
-    const auto nn = static_cast<std::size_t>(node_count(block.shape)),
-               corners = static_cast<std::size_t>(vertex_count(block.shape));
+    const auto nn = as_size(node_count(block.shape)), corners = as_size(vertex_count(block.shape));
     for (std::size_t f = 0; f < block.nodes.size(); f += nn) {
       SkinFace face;
-      for (std::size_t i = 0; i < corners; ++i)
-        face.corners.push_back(mesh.x[static_cast<std::size_t>(block.nodes[f + i])]);
+      for (std::size_t i = 0; i < corners; ++i) face.corners.push_back(mesh.x[as_size(block.nodes[f + i])]);
       measure(face);
       area += face.area;
     }

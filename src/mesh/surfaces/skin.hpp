@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/raw_mesh.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
@@ -52,8 +53,7 @@ class SkinSearch {
   using Cell = std::array<long, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const {
-      return static_cast<std::size_t>(c[0]) * 73856093U ^ static_cast<std::size_t>(c[1]) * 19349663U ^
-             static_cast<std::size_t>(c[2]) * 83492791U;
+      return as_size(c[0]) * 73856093U ^ as_size(c[1]) * 19349663U ^ as_size(c[2]) * 83492791U;
     }
   };
   Cell cell(const Point& p) const;

@@ -15,13 +15,14 @@
 #include "mesh/surfaces/face_walk.hpp"
 #include "mesh/surfaces/faces.hpp"
 #include "mesh/surfaces/vertex_sets.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
 Point middle(const RawMesh& mesh, const OuterFace& face) {
-  return middle_of(mesh, std::span(face.nodes).first(static_cast<std::size_t>(vertex_count(face.shape))));
+  return middle_of(mesh, std::span(face.nodes).first(as_size(vertex_count(face.shape))));
 }
 
 /// The diagonal of the box around a skin.
@@ -44,9 +45,8 @@ double tolerance_of(const RawMesh& mesh, const std::vector<OuterFace>& skin) {
     const int n = vertex_count(face.shape);
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < a; ++b)
-        shortest = std::min(shortest,
-                            length_of(difference(point_of(mesh, face.nodes[static_cast<std::size_t>(a)]),
-                                                 point_of(mesh, face.nodes[static_cast<std::size_t>(b)]))));
+        shortest = std::min(shortest, length_of(difference(point_of(mesh, face.nodes[as_size(a)]),
+                                                           point_of(mesh, face.nodes[as_size(b)]))));
   }
   constexpr double k_share = 1e-4, k_rounding = 1e-10;
   return std::max(k_share * shortest, k_rounding * extent_of_skin(mesh, skin));
@@ -85,7 +85,7 @@ std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<OuterFa
   std::vector<Index> first(mesh.x.size(), -1), nodes;
   for (const OuterFace& face : skin)
     for (const Index node : face.nodes)
-      if (Index& f = first[static_cast<std::size_t>(node)]; f < 0) {
+      if (Index& f = first[as_size(node)]; f < 0) {
         f = node;
         nodes.push_back(node);
       }
@@ -95,7 +95,7 @@ std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<OuterFa
   std::vector<std::pair<std::int64_t, Index>> placed;  // (cell, position in nodes)
   for (std::size_t k = 0; k < nodes.size(); ++k)
     cells.for_each(point_of(mesh, nodes[k]), point_of(mesh, nodes[k]),
-                   [&](std::int64_t key) { placed.emplace_back(key, static_cast<Index>(k)); });
+                   [&](std::int64_t key) { placed.emplace_back(key, as_index(k)); });
   std::ranges::sort(placed);
   // Each node looks for an earlier one within the tolerance.
   bool any = false;
@@ -104,13 +104,13 @@ std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<OuterFa
     Index same = nodes[k];
     cells.for_each(moved(x, -tolerance), moved(x, tolerance), [&](std::int64_t key) {
       auto other = std::ranges::lower_bound(placed, std::pair<std::int64_t, Index>{key, 0});
-      for (; other != placed.end() && other->first == key && other->second < static_cast<Index>(k); ++other) {
-        const Index node = nodes[static_cast<std::size_t>(other->second)];
+      for (; other != placed.end() && other->first == key && other->second < as_index(k); ++other) {
+        const Index node = nodes[as_size(other->second)];
         if (length_of(difference(point_of(mesh, node), x)) < tolerance)
-          same = std::min(same, first[static_cast<std::size_t>(node)]);
+          same = std::min(same, first[as_size(node)]);
       }
     });
-    first[static_cast<std::size_t>(nodes[k])] = same;
+    first[as_size(nodes[k])] = same;
     any = any || same != nodes[k];
   }
   return any ? first : std::vector<Index>{};
@@ -119,9 +119,7 @@ std::vector<Index> first_in_place(const RawMesh& mesh, const std::vector<OuterFa
 /// Whether a point lies in a face or an edge, away from its corners.
 bool lies_in(const Point& x, const RawMesh& mesh, const OuterFace& face, double tolerance) {
   const int n = vertex_count(face.shape);
-  const auto corner = [&](int a) -> const Point& {
-    return point_of(mesh, face.nodes[static_cast<std::size_t>(a)]);
-  };
+  const auto corner = [&](int a) -> const Point& { return point_of(mesh, face.nodes[as_size(a)]); };
   const auto in_segment = [&](const Point& a, const Point& b) {
     const Point ab = difference(b, a), ax = difference(x, a);
     const double length = length_of(ab), along = dot_product(ab, ax) / length;
@@ -151,7 +149,7 @@ std::size_t drop_repeated(RawGroup& group) {
   std::vector<VertexSet> sets;
   append_element_vertex_sets(group, sets);
   const std::vector<Index> first_equal = first_equal_set(sets);
-  const auto is_repeated = [&](std::size_t k) { return static_cast<std::size_t>(first_equal[k]) != k; };
+  const auto is_repeated = [&](std::size_t k) { return as_size(first_equal[k]) != k; };
   std::size_t dropped = 0;
   for (std::size_t k = 0; k < sets.size(); ++k) dropped += is_repeated(k) ? 1 : 0;
   if (dropped == 0) return 0;
@@ -160,7 +158,7 @@ std::size_t drop_repeated(RawGroup& group) {
   for (RawBlock& block : group.blocks) {
     const auto n = static_cast<std::ptrdiff_t>(node_count(block.shape));
     RawBlock kept{block.shape, {}, {}};
-    for (std::size_t e = 0; e < block.nodes.size() / static_cast<std::size_t>(n); ++e) {
+    for (std::size_t e = 0; e < block.nodes.size() / as_size(n); ++e) {
       if (is_repeated(k++)) continue;
       const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(e) * n;
       kept.nodes.insert(kept.nodes.end(), first, first + n);
@@ -178,18 +176,17 @@ InnerFaces inner_faces(const RawMesh& mesh, const std::vector<std::string>& bodi
   InnerFaces inner;
   std::unordered_set<FaceKey, FaceKeyHash> faces;
   for_each_element(surface, [&](std::span<const Index> nodes, std::span<const Index> vertices) {
-    for (const Index node : nodes) on_surface[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : nodes) on_surface[as_size(node)] = 1;
     faces.insert(face_key(vertices.data(), static_cast<int>(vertices.size())));
     ++inner.n_all;
   });
   const auto all_on_surface = [&](std::span<const Index> nodes) {
-    return std::ranges::all_of(nodes, [&](Index i) { return on_surface[static_cast<std::size_t>(i)] != 0; });
+    return std::ranges::all_of(nodes, [&](Index i) { return on_surface[as_size(i)] != 0; });
   };
   // What is on the skin of a body is right, and that is all of most surfaces: their inside is not looked at.
   for (const std::vector<OuterFace>& skin : skins)
     for (const OuterFace& face : skin)
-      if (const int n = vertex_count(face.shape);
-          all_on_surface({face.nodes.data(), static_cast<std::size_t>(n)}))
+      if (const int n = vertex_count(face.shape); all_on_surface({face.nodes.data(), as_size(n)}))
         faces.erase(face_key(face.nodes.data(), n));
   if (faces.empty()) return inner;
   // Of the others those of a body's elements lie inside of it; the rest is on no body at all.
@@ -220,11 +217,10 @@ Crack find_crack(const RawMesh& mesh, const std::vector<OuterFace>& skin,
   std::unordered_map<FaceKey, const OuterFace*, FaceKeyHash> faces;
   std::vector<Index> nodes;
   for (const OuterFace& face : skin) {
-    const bool apart = std::ranges::any_of(
-        face.nodes, [&](Index i) { return kept_apart[static_cast<std::size_t>(i)] != 0; });
+    const bool apart = std::ranges::any_of(face.nodes, [&](Index i) { return kept_apart[as_size(i)] != 0; });
     if (apart) continue;
     nodes.clear();
-    for (const Index i : face.nodes) nodes.push_back(first[static_cast<std::size_t>(i)]);
+    for (const Index i : face.nodes) nodes.push_back(first[as_size(i)]);
     const auto [other, is_new] = faces.emplace(face_key(nodes.data(), vertex_count(face.shape)), &face);
     if (is_new) continue;
     if (crack.n_pairs++ == 0) {
@@ -234,8 +230,7 @@ Crack find_crack(const RawMesh& mesh, const std::vector<OuterFace>& skin,
     }
     // Their nodes are to be merged.
     for (const OuterFace* side : {other->second, &face})
-      for (const Index i : side->nodes)
-        crack.replaced[static_cast<std::size_t>(i)] = first[static_cast<std::size_t>(i)];
+      for (const Index i : side->nodes) crack.replaced[as_size(i)] = first[as_size(i)];
   }
   return crack;
 }
@@ -243,11 +238,11 @@ Crack find_crack(const RawMesh& mesh, const std::vector<OuterFace>& skin,
 void replace_nodes(RawMesh& mesh, const std::vector<Index>& replaced) {
   for (auto& [name, group] : mesh.groups)
     for (RawBlock& block : group.blocks)
-      for (Index& node : block.nodes) node = replaced[static_cast<std::size_t>(node)];
+      for (Index& node : block.nodes) node = replaced[as_size(node)];
   for (DrawnFace& face : mesh.drawn_faces)
     for (std::array<Index, 4>& facet : face.facets) {
       for (Index& node : facet)
-        if (node >= 0) node = replaced[static_cast<std::size_t>(node)];
+        if (node >= 0) node = replaced[as_size(node)];
       std::ranges::sort(facet);
     }
 }
@@ -270,8 +265,8 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<OuterFace>& sk
   std::unordered_set<Index> seen;
   for (const OuterFace& face : skin)
     for (int a = 0; a < vertex_count(face.shape); ++a)
-      if (const Index node = face.nodes[static_cast<std::size_t>(a)];
-          kept_apart[static_cast<std::size_t>(node)] == 0 && seen.insert(node).second)
+      if (const Index node = face.nodes[as_size(a)];
+          kept_apart[as_size(node)] == 0 && seen.insert(node).second)
         cells.for_each(point_of(mesh, node), point_of(mesh, node),
                        [&](std::int64_t key) { corners[key].push_back(node); });
   // A node within a face or edge that it is no corner of hangs there.
@@ -280,8 +275,8 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<OuterFace>& sk
     Point low = point_of(mesh, face.nodes[0]), high = low;
     for (int a = 1; a < vertex_count(face.shape); ++a)
       for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], point_of(mesh, face.nodes[static_cast<std::size_t>(a)])[i]);
-        high[i] = std::max(high[i], point_of(mesh, face.nodes[static_cast<std::size_t>(a)])[i]);
+        low[i] = std::min(low[i], point_of(mesh, face.nodes[as_size(a)])[i]);
+        high[i] = std::max(high[i], point_of(mesh, face.nodes[as_size(a)])[i]);
       }
     cells.for_each(moved(low, -tolerance), moved(high, tolerance), [&](std::int64_t key) {
       const auto there = corners.find(key);
@@ -305,26 +300,26 @@ HangingNodes hanging_nodes(const RawMesh& mesh, const std::vector<OuterFace>& sk
 std::size_t n_pieces(const RawMesh& mesh, const std::string& body) {
   std::vector<Index> root(mesh.x.size(), -1);
   const auto find = [&](Index i) {
-    while (root[static_cast<std::size_t>(i)] != i) {
-      Index& up = root[static_cast<std::size_t>(i)];
-      up = root[static_cast<std::size_t>(up)];
+    while (root[as_size(i)] != i) {
+      Index& up = root[as_size(i)];
+      up = root[as_size(up)];
       i = up;
     }
     return i;
   };
   std::size_t pieces = 0;
   for (const RawBlock& block : mesh.groups.at(body).blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape));
+    const auto n = as_size(node_count(block.shape));
     for (std::size_t first = 0; first < block.nodes.size(); first += n) {
       for (std::size_t a = 0; a < n; ++a)
-        if (Index& r = root[static_cast<std::size_t>(block.nodes[first + a])]; r < 0) {
+        if (Index& r = root[as_size(block.nodes[first + a])]; r < 0) {
           r = block.nodes[first + a];
           ++pieces;
         }
       for (std::size_t a = 1; a < n; ++a) {
         const Index one = find(block.nodes[first]), other = find(block.nodes[first + a]);
         if (one == other) continue;
-        root[static_cast<std::size_t>(std::max(one, other))] = std::min(one, other);
+        root[as_size(std::max(one, other))] = std::min(one, other);
         --pieces;
       }
     }

@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -28,8 +30,7 @@ VertexSet vertex_set(std::span<const Index> vertices) {
 
 void append_element_vertex_sets(const RawGroup& group, std::vector<VertexSet>& sets) {
   for (const RawBlock& block : group.blocks) {
-    const auto n = static_cast<std::size_t>(node_count(block.shape)),
-               n_vertices = static_cast<std::size_t>(vertex_count(block.shape));
+    const auto n = as_size(node_count(block.shape)), n_vertices = as_size(vertex_count(block.shape));
     for (std::size_t first = 0; first + n <= block.nodes.size(); first += n)
       sets.push_back(vertex_set(std::span(block.nodes).subspan(first, n_vertices)));
   }
@@ -37,18 +38,17 @@ void append_element_vertex_sets(const RawGroup& group, std::vector<VertexSet>& s
 
 std::vector<Index> first_equal_set(std::span<const VertexSet> sets) {
   std::size_t n_nodes = 0;
-  for (const VertexSet& set : sets) n_nodes = std::max(n_nodes, static_cast<std::size_t>(set.smallest) + 1);
+  for (const VertexSet& set : sets) n_nodes = std::max(n_nodes, as_size(set.smallest) + 1);
   // The sets are counted and placed by their smallest vertex. Few share one, and meshes number vertices that
   // are near each other one after the other, so that this stays in the cache where a hash of all would not.
   std::vector<Index> begin(n_nodes + 1, 0);
-  for (const VertexSet& set : sets) ++begin[static_cast<std::size_t>(set.smallest) + 1];
+  for (const VertexSet& set : sets) ++begin[as_size(set.smallest) + 1];
   for (std::size_t v = 0; v < n_nodes; ++v) begin[v + 1] += begin[v];
   using Entry = std::pair<std::uint64_t, Index>;  // the other vertices, and the number of the set
   std::vector<Entry> placed(sets.size());
   std::vector<Index> next(begin.begin(), begin.end() - 1);
   for (std::size_t i = 0; i < sets.size(); ++i)
-    placed[static_cast<std::size_t>(next[static_cast<std::size_t>(sets[i].smallest)]++)] = {
-        sets[i].others, static_cast<Index>(i)};
+    placed[as_size(next[as_size(sets[i].smallest)]++)] = {sets[i].others, as_index(i)};
 
   // Among those with one smallest vertex equal sets come together, the first of them first.
   std::vector<Index> first(sets.size());
@@ -57,8 +57,7 @@ std::vector<Index> first_equal_set(std::span<const VertexSet> sets) {
     std::sort(from, to);
     for (auto each = from; each != to; ++each) {
       const bool repeated = each != from && std::prev(each)->first == each->first;
-      first[static_cast<std::size_t>(each->second)] =
-          repeated ? first[static_cast<std::size_t>(std::prev(each)->second)] : each->second;
+      first[as_size(each->second)] = repeated ? first[as_size(std::prev(each)->second)] : each->second;
     }
   }
   return first;

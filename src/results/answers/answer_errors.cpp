@@ -11,6 +11,7 @@
 #include "criteria/resolution.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "mechanics/quantities.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/fields/spots.hpp"
 
@@ -101,7 +102,7 @@ class ErrorFinder {
 };
 
 void ErrorFinder::of_freezing(CastAnswer& body) {
-  const auto b = static_cast<std::size_t>(body.cast.body);
+  const auto b = as_size(body.cast.body);
   worst_flow_ = std::max(worst_flow_, flow_[b]);
   if (const material::PhaseChange* change = phases_.heat->storage().material(body.cast.body).solidification())
     shrinkage_ = std::max(shrinkage_, std::abs(change->volume_change));
@@ -132,7 +133,7 @@ void ErrorFinder::of_gap(GapAnswer& answer) const {
     if (pair->parts().spec.name != answer.contact) continue;
     const auto surface = mesh_.surfaces.find(pair->parts().spec.slave);
     if (surface == mesh_.surfaces.end()) continue;
-    for (const Index node : surface->second.nodes) slave[static_cast<std::size_t>(node)] = 1;
+    for (const Index node : surface->second.nodes) slave[as_size(node)] = 1;
   }
   const auto [change, around] = at(node_spot(mesh_, answer.gap.where, slave), contact::fields::k_gap.name);
   answer.gap.error = of_state(answer.gap.value, change, k_around_gap * around);
@@ -144,7 +145,7 @@ double ErrorFinder::change_of_shape(const std::optional<Spot>& spot) const {
   // Without a step before there is no change to measure.
   if (before.empty()) return 0;
   // All nodes of castings count alike, over all processes.
-  const auto n_owned = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  const auto n_owned = as_size(mesh_.n_owned_nodes);
   double square = 0, n = 0;
   for (std::size_t i = 0; i < n_owned; ++i) n += cast_nodes_[i];
   n = parallel::global_sum(n);
@@ -190,7 +191,7 @@ void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionRe
   // Freezing comes first: the worst error of flow among the castings, which others use, is found with it.
   std::vector<char> cast(mesh_.bodies.size(), 0);
   for (CastAnswer& body : answers.castings) {
-    cast[static_cast<std::size_t>(body.cast.body)] = 1;
+    cast[as_size(body.cast.body)] = 1;
     of_freezing(body);
   }
   cast_nodes_ = nodes_of(mesh_, cast);
@@ -199,7 +200,7 @@ void ErrorFinder::find(Answers& answers, const std::vector<criteria::CriterionRe
   for (std::vector<GapAnswer>* gaps : {&answers.gaps, &answers.overlaps})
     for (GapAnswer& gap : *gaps) of_gap(gap);
   for (CastAnswer& body : answers.castings) {
-    if (body.pores) body.pores->error = of_pores(flow_[static_cast<std::size_t>(body.cast.body)]);
+    if (body.pores) body.pores->error = of_pores(flow_[as_size(body.cast.body)]);
     if (body.least_niyama) of_niyama(*body.least_niyama);
   }
   if (answers.distortion) of_distortion(*answers.distortion);

@@ -15,6 +15,7 @@
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "mechanics/quantities.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "results/fields/spots.hpp"
@@ -48,11 +49,11 @@ class Largest {
 
 /// The owned nodes of a body.
 std::vector<char> owned_nodes_of(const mesh::Mesh& mesh, int body) {
-  std::vector<char> chosen(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
+  std::vector<char> chosen(as_size(mesh.n_owned_nodes), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
     if (block.body == body)
       for (const Index node : block.nodes)
-        if (node < mesh.n_owned_nodes) chosen[static_cast<std::size_t>(node)] = 1;
+        if (node < mesh.n_owned_nodes) chosen[as_size(node)] = 1;
   return chosen;
 }
 
@@ -157,10 +158,10 @@ std::vector<GapAnswer> largest_of_contacts(const mesh::Mesh& mesh, const couplin
   std::vector<GapAnswer> found;
   for (std::size_t k = 0; k < phases.contacts.size(); ++k) {
     const contact::ContactParameters& pair = phases.contacts[k]->parts().spec;
-    std::vector<char> nodes(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
+    std::vector<char> nodes(as_size(mesh.n_owned_nodes), 0);
     if (const auto slave = mesh.surfaces.find(pair.slave); slave != mesh.surfaces.end())
       for (const Index node : slave->second.nodes)
-        if (node < mesh.n_owned_nodes) nodes[static_cast<std::size_t>(node)] = 1;
+        if (node < mesh.n_owned_nodes) nodes[as_size(node)] = 1;
     const std::optional<ValueAt> largest =
         largest_at(mesh, nodes, [&](std::size_t i) { return value(k, i); });
     if (largest) found.push_back({pair.name, *largest});
@@ -181,10 +182,9 @@ std::vector<GapAnswer> deepest_overlaps(const mesh::Mesh& mesh, const coupling::
                                         std::span<const double> temperature) {
   std::vector<std::vector<double>> overlap(phases.contacts.size());
   for (std::size_t k = 0; k < overlap.size(); ++k) {
-    overlap[k].resize(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);
+    overlap[k].resize(as_size(mesh.n_owned_nodes), 0.0);
     const contact::ContactNodalFields here = contact::nodal_fields(phases.contacts[k]->view(), temperature);
-    for (std::size_t a = 0; a < here.nodes.size(); ++a)
-      overlap[k][static_cast<std::size_t>(here.nodes[a])] = here.overlap[a];
+    for (std::size_t a = 0; a < here.nodes.size(); ++a) overlap[k][as_size(here.nodes[a])] = here.overlap[a];
   }
   return largest_of_contacts(mesh, phases, [&](std::size_t k, std::size_t i) {
     return overlap[k][i] > 0 ? std::optional(overlap[k][i]) : std::nullopt;
@@ -200,13 +200,12 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
   std::vector<Largest> of_body(mesh.bodies.size());
   std::size_t first = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    const auto body = static_cast<std::size_t>(block.body);
+    const auto body = as_size(block.body);
     if (bodies[body] != 0)
       for (Index e = 0; e < block.n_counted; ++e)
-        of_body[body].see(stress[first + static_cast<std::size_t>(e)],
-                          static_cast<double>(block.input_element[static_cast<std::size_t>(e)]),
+        of_body[body].see(stress[first + as_size(e)], static_cast<double>(block.input_element[as_size(e)]),
                           centre(mesh, block, e));
-    first += static_cast<std::size_t>(block.size());
+    first += as_size(block.size());
   }
   // The largest of each body over all processes, then of all bodies, with the body's name.
   for (std::size_t b = 0; b < of_body.size(); ++b) {
@@ -229,21 +228,20 @@ std::optional<Pores> pores_in(const mesh::Mesh& mesh, AnalysisKind kind, const F
   std::size_t first = 0;
   // Fractions weighted by volume, and the densest element; over all processes in the end.
   for (const mesh::ElementBlock& block : mesh.blocks) {
-    if (bodies[static_cast<std::size_t>(block.body)] != 0) {
+    if (bodies[as_size(block.body)] != 0) {
       const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
-      const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+      const auto n_nodes = as_size(mesh::node_count(block.shape));
       for (Index e = 0; e < block.n_counted; ++e) {
         double of_element = 0;
         for (std::size_t a = 0; a < n_nodes; ++a)
-          of_element += integrals[static_cast<std::size_t>(e / k_lanes) * n_nodes + a][e % k_lanes];
-        const double value = fraction[first + static_cast<std::size_t>(e)];
+          of_element += integrals[as_size(e / k_lanes) * n_nodes + a][e % k_lanes];
+        const double value = fraction[first + as_size(e)];
         whole += of_element;
         volume += value * of_element;
-        densest.see(value, static_cast<double>(block.input_element[static_cast<std::size_t>(e)]),
-                    centre(mesh, block, e));
+        densest.see(value, static_cast<double>(block.input_element[as_size(e)]), centre(mesh, block, e));
       }
     }
-    first += static_cast<std::size_t>(block.size());
+    first += as_size(block.size());
   }
   // A run in which no pore has opened has no answer.
   const std::optional<ValueAt> largest = densest.over_processes();
@@ -262,10 +260,10 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   a.time = state.time;
   a.poured = state.poured;
   std::vector<char> stressed(mesh.bodies.size(), castings.empty() ? 1 : 0);
-  std::vector<char> cast_nodes(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
+  std::vector<char> cast_nodes(as_size(mesh.n_owned_nodes), 0);
   for (const CastBody& cast : castings) {
     if (phases.heat != nullptr) a.castings.push_back(cast_answer(mesh, phases, state, cast, fields));
-    stressed[static_cast<std::size_t>(cast.body)] = 1;
+    stressed[as_size(cast.body)] = 1;
     const std::vector<char> own = owned_nodes_of(mesh, cast.body);
     for (std::size_t i = 0; i < own.size(); ++i) cast_nodes[i] |= own[i];
   }
@@ -275,9 +273,9 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   std::vector<char> parts(mesh.bodies.size(), 0);
   for (CastAnswer& cast : a.castings) {
     std::vector<char> own(mesh.bodies.size(), 0);
-    own[static_cast<std::size_t>(cast.cast.body)] = 1;
+    own[as_size(cast.cast.body)] = 1;
     cast.pores = pores_in(mesh, phases.mechanics->bodies().kind, fields, own);
-    if (cast.cast.is_part()) parts[static_cast<std::size_t>(cast.cast.body)] = 1;
+    if (cast.cast.is_part()) parts[as_size(cast.cast.body)] = 1;
   }
   // Pores of the whole are those of the parts; risers and gating are cut off and count only where there is no
   // part.
@@ -296,7 +294,7 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   }
   add_stress(mesh, fields, stressed, a);
   for (const CastBody& cast : castings)  // the mesh knows the body by its group
-    if (mesh.bodies[static_cast<std::size_t>(cast.body)].name == a.stressed_body) a.stressed_body = cast.name;
+    if (mesh.bodies[as_size(cast.body)].name == a.stressed_body) a.stressed_body = cast.name;
   return a;
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "criteria/quantities.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "results/answers/answers.hpp"
@@ -102,7 +103,7 @@ std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& f
       continue;
     for (const Index node : block.nodes) {
       if (node >= mesh.n_owned_nodes) continue;
-      const double at = solidified[static_cast<std::size_t>(node)];
+      const double at = solidified[as_size(node)];
       liquid = liquid || at < 0;
       last = std::max(last, at);
     }

@@ -7,6 +7,7 @@
 
 #include "mechanics/quantities.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/fields/spots.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
@@ -38,27 +39,26 @@ struct NodeSum {
 std::array<double, 2> sums_of_body(const mesh::Mesh& mesh, AnalysisKind kind, int body,
                                    const FieldValues& stress) {
   std::array<double, 2> sums{};
-  std::vector<NodeSum> nodes(static_cast<std::size_t>(mesh.n_owned_nodes));
+  std::vector<NodeSum> nodes(as_size(mesh.n_owned_nodes));
   std::size_t first = 0;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const std::size_t begin = first;
     // Element values lie block after block, those of other bodies too.
-    first += static_cast<std::size_t>(block.size());
+    first += as_size(block.size());
     if (block.body != body) continue;
     const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
-    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto n = as_size(mesh::node_count(block.shape));
     // Each element adds its deviator to its nodes; what the nodal means do not explain is the jump between
     // elements.
     for (Index e = 0; e < block.size(); ++e) {
       double volume = 0;
-      for (std::size_t a = 0; a < n; ++a)
-        volume += integrals[static_cast<std::size_t>(e / k_lanes) * n + a][e % k_lanes];
-      const Deviator s = deviator(stress, begin + static_cast<std::size_t>(e));
+      for (std::size_t a = 0; a < n; ++a) volume += integrals[as_size(e / k_lanes) * n + a][e % k_lanes];
+      const Deviator s = deviator(stress, begin + as_size(e));
       const double share = volume / static_cast<double>(n);
       for (std::size_t a = 0; a < n; ++a) {
         const Index node = block.element(e)[a];
         if (node >= mesh.n_owned_nodes) continue;
-        NodeSum& sum = nodes[static_cast<std::size_t>(node)];
+        NodeSum& sum = nodes[as_size(node)];
         sum.volume += share;
         for (std::size_t i = 0; i < 6; ++i) sum.stress[i] += share * s[i];
         sums[0] += share * square(s);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mechanics/elements/padding.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/checkpoint/checkpoint_contacts.hpp"
 #include "results/checkpoint/checkpoint_criteria.hpp"
@@ -41,9 +42,9 @@ std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
 
 // History of the elements this process counts, [element][point][component].
 std::vector<double> pack_history(const mesh::ElementBlock& block, const mechanics::BlockHistory& history) {
-  const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
-  std::vector<double> packed(static_cast<std::size_t>(block.n_counted) * per_element);
-  for (std::size_t e = 0; e < static_cast<std::size_t>(block.n_counted); ++e)
+  const auto per_element = as_size(history.n_points * history.n_components);
+  std::vector<double> packed(as_size(block.n_counted) * per_element);
+  for (std::size_t e = 0; e < as_size(block.n_counted); ++e)
     for (std::size_t k = 0; k < per_element; ++k)
       packed[e * per_element + k] =
           history.values[(e / k_lanes) * per_element + k][static_cast<int>(e % k_lanes)];
@@ -105,7 +106,7 @@ void take_nodes(TableReader& in, const std::string& name, const Places& places, 
 
 void take_history(TableReader& in, const std::string& name, const std::string& values,
                   const mesh::ElementBlock& block, mechanics::BlockHistory& history) {
-  const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
+  const auto per_element = as_size(history.n_points * history.n_components);
   if (per_element == 0) return;
   // Rows are found by the element's number, so that another division into processes can go on.
   const Places places = places_of(block.input_element);
@@ -124,15 +125,14 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
   if (n == 0) return;
   const std::size_t last = (n - 1) / k_lanes;
   for (std::size_t k = 0; k < per_element; ++k)
-    mechanics::repeat_last_element(history.values[last * per_element + k], static_cast<Index>(last),
-                                   static_cast<Index>(n));
+    mechanics::repeat_last_element(history.values[last * per_element + k], as_index(last), as_index(n));
 }
 
 /// Room for the rates of the plastic strain of a block with this history.
 mechanics::BlockHistory creep_layout(const mechanics::BlockHistory& history) {
   constexpr int k_tensor = 6;
   mechanics::BlockHistory rates{k_tensor, history.n_points, {}};
-  const auto width = static_cast<std::size_t>(history.n_components);
+  const auto width = as_size(history.n_components);
   rates.values.assign(width > 0 ? history.values.size() / width * k_tensor : 0, Lane(0.0));
   return rates;
 }
@@ -257,7 +257,7 @@ void write_nodes(TableWriter& out, const mesh::Mesh& mesh, const std::string& na
                  const std::vector<double>& field) {
   const std::size_t width = mesh.x.empty() ? 0 : field.size() / mesh.x.size();
   out.rows<double>(name, static_cast<int>(width),
-                   std::span(field).first(static_cast<std::size_t>(mesh.n_owned_nodes) * width));
+                   std::span(field).first(as_size(mesh.n_owned_nodes) * width));
 }
 
 void write_rates(TableWriter& out, const mesh::Mesh& mesh, const coupling::Rates& rates) {
@@ -293,8 +293,7 @@ void write_histories(TableWriter& out, const mesh::Mesh& mesh, const mechanics::
     const mesh::ElementBlock& block = mesh.blocks[b];
     const mechanics::BlockHistory& history = state.history[b];
     const std::string name = block_name(mesh, b);
-    out.rows<std::int64_t>(name + "/element", 1,
-                           block.input_element.part(0, static_cast<std::size_t>(block.n_counted)));
+    out.rows<std::int64_t>(name + "/element", 1, block.input_element.part(0, as_size(block.n_counted)));
     const int width = history.n_points * history.n_components;
     out.rows<double>(name + "/values", width, pack_history(block, history));
     if (state.dt_before > 0) out.rows<double>(name + "/before", width, pack_history(block, state.before[b]));
@@ -345,7 +344,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
 
   // Nodes are written as rows of owned nodes with their numbers in the input, so that any number of processes
   // can read them.
-  const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto owned = as_size(mesh.n_owned_nodes);
   out.rows<std::int64_t>("node", 1, mesh.input_node.part(0, owned));
   const auto nodal = [&](const char* name, const std::vector<double>& field) {
     write_nodes(out, mesh, name, field);

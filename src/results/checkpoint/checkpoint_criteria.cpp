@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::results {
@@ -36,7 +37,7 @@ std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
   const std::string values = path(record, column.name);
   // A column of nodes is one part; one of elements has a part for each block.
   if (column.place == mesh::FieldPlace::node)
-    return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node.size(),
+    return {{0, as_size(mesh.n_owned_nodes), mesh.input_node.size(),
              [&mesh](std::size_t row) { return mesh.input_node[row]; }, "node", values}};
   std::vector<Part> result;
   // Blocks are numbered through, with all rows of this process, of which the counted ones are
@@ -44,7 +45,7 @@ std::vector<Part> parts(const mesh::Mesh& mesh, const CriterionRecord& record,
   std::size_t first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
-    result.push_back({first, static_cast<std::size_t>(block.n_counted), block.input_element.size(),
+    result.push_back({first, as_size(block.n_counted), block.input_element.size(),
                       [&block](std::size_t row) { return block.input_element[row]; },
                       element_path(b, "element"), element_path(b, record.name + "_" + column.name)});
     first += block.input_element.size();
@@ -62,7 +63,7 @@ bool has_cells(const criteria::CriteriaState& state) {
 void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
   std::unordered_map<std::int64_t, std::size_t> places;
   for (std::size_t i = 0; i < part.here; ++i) places.emplace(part.number(i), i);
-  const auto width = static_cast<std::size_t>(column.components);
+  const auto width = as_size(column.components);
   in.each(part.keys, part.values, {}, [&](std::int64_t number, std::span<const double> row) {
     const auto place = places.find(number);
     if (place == places.end() || row.size() != width) return;
@@ -79,13 +80,12 @@ void take_part(TableReader& in, const Part& part, CriterionColumn& column) {
 void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::CriteriaState& state) {
   if (has_cells(state))
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      out.rows<std::int64_t>(
-          element_path(b, "element"), 1,
-          mesh.blocks[b].input_element.part(0, static_cast<std::size_t>(mesh.blocks[b].n_counted)));
+      out.rows<std::int64_t>(element_path(b, "element"), 1,
+                             mesh.blocks[b].input_element.part(0, as_size(mesh.blocks[b].n_counted)));
   for (const CriterionRecord& record : state.records) {
     // Columns of nodes or elements first, then tables whose rows belong to no place.
     for (const criteria::CriterionColumn& column : record.columns) {
-      const auto width = static_cast<std::size_t>(column.components);
+      const auto width = as_size(column.components);
       for (const Part& part : parts(mesh, record, column))
         out.rows<double>(part.values, column.components,
                          std::span(column.values).subspan(part.first * width, part.owned * width));
@@ -93,7 +93,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::Cr
     for (const criteria::CriterionTable& table : record.tables) {
       // Every process holds all rows: the first writes them.
       const std::size_t n = processes::rank() == 0 ? table.values.size() : 0;
-      std::vector<std::int64_t> rows(n / static_cast<std::size_t>(table.width));
+      std::vector<std::int64_t> rows(n / as_size(table.width));
       std::iota(rows.begin(), rows.end(), 0);
       out.rows<std::int64_t>(path(record, table.name) + "_row", 1, rows);
       out.rows<double>(path(record, table.name), table.width, std::span(table.values).first(n));
@@ -109,7 +109,7 @@ void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::CriteriaSt
       table.values.clear();
       in.each(path(record, table.name) + "_row", path(record, table.name), {},
               [&](std::int64_t, std::span<const double> row) {
-                if (row.size() != static_cast<std::size_t>(table.width))
+                if (row.size() != as_size(table.width))
                   in.refuse("its '" + path(record, table.name) + "' has rows of another width");
                 table.values.insert(table.values.end(), row.begin(), row.end());
               });

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/formats/file_checksum.hpp"
 #include "results/output/output_error.hpp"
@@ -158,7 +159,7 @@ void TableReader::each(const std::string& keys, const std::string& values, const
   run_collectively([&] {
     // How many rows and columns there are is in the file.
     const std::int64_t n_rows = file_->rows(values);
-    const auto width = static_cast<std::size_t>(file_->width(values));
+    const auto width = as_size(file_->width(values));
     // Keys and values must have as many rows; a damaged file may claim anything.
     if (file_->rows(keys) != n_rows || file_->width(keys) != 1 || width > k_widest)
       throw OutputError(path_.string(), "its '" + values + "' does not fit its '" + keys + "'");
@@ -166,7 +167,7 @@ void TableReader::each(const std::string& keys, const std::string& values, const
     std::vector<std::int64_t> number;
     std::vector<double> row;
     for (std::int64_t first = 0; first < n_rows; first += k_rows_at_once) {
-      const auto n = static_cast<std::size_t>(std::min(k_rows_at_once, n_rows - first));
+      const auto n = as_size(std::min(k_rows_at_once, n_rows - first));
       number.resize(n);
       row.resize(n * width);
       file_->read_rows<std::int64_t>(keys, first, number);

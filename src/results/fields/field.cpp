@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::results {
@@ -59,8 +60,8 @@ std::size_t value_count(const mesh::Mesh& mesh, mesh::FieldPlace place, int comp
   if (place == mesh::FieldPlace::node)
     n = mesh.x.size();
   else
-    for (const mesh::ElementBlock& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
-  return n * static_cast<std::size_t>(components);
+    for (const mesh::ElementBlock& block : mesh.blocks) n += as_size(block.size());
+  return n * as_size(components);
 }
 
 void check_size(const mesh::Mesh& mesh, const Field& field, std::size_t n_values) {

@@ -2,6 +2,7 @@
 #include "results/fields/heat_flux.hpp"
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::results {
 
@@ -17,7 +18,7 @@ std::vector<double> element_means(const mesh::Mesh& mesh, AnalysisKind kind,
   std::vector<double> means;
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
-    const auto n_nodes = static_cast<std::size_t>(g.n_nodes), dim = static_cast<std::size_t>(g.dim);
+    const auto n_nodes = as_size(g.n_nodes), dim = as_size(g.dim);
     const Table& conductivity = material_of(block.body).conductivity;
     for (Index e = 0; e < g.n_elements; ++e) {
       const Index batch = e / k_lanes;
@@ -31,8 +32,8 @@ std::vector<double> element_means(const mesh::Mesh& mesh, AnalysisKind kind,
         double theta = 0;
         std::vector<double> gradient(dim, 0.0);
         for (std::size_t a = 0; a < n_nodes; ++a) {
-          const double value = temperature[static_cast<std::size_t>(block.element(e)[a])];
-          theta += g.values[static_cast<std::size_t>(q) * n_nodes + a] * value;
+          const double value = temperature[as_size(block.element(e)[a])];
+          theta += g.values[as_size(q) * n_nodes + a] * value;
           for (std::size_t i = 0; i < dim; ++i) gradient[i] += gradients[a * dim + i][lane] * value;
         }
         add(w, conductivity.value(theta), theta, gradient, sum);
@@ -51,7 +52,7 @@ std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
                                       const std::function<const material::Material&(int)>& material_of,
                                       std::span<const double> temperature) {
   return element_means(
-      mesh, kind, material_of, temperature, static_cast<std::size_t>(mesh.dimension),
+      mesh, kind, material_of, temperature, as_size(mesh.dimension),
       [](double w, double k, double, const std::vector<double>& gradient, std::vector<double>& sum) {
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] -= w * k * gradient[i];
       });

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "numbers/symmetric_eigen.hpp"
 
 namespace solidus::results {
@@ -18,10 +19,6 @@ constexpr std::size_t k_components = 6;
 constexpr double k_spread = 0.1;
 /// Per node: rank + 1 (zero: no fit), the centre, and value and gradient of each component.
 constexpr std::size_t k_fit = 4 + 4 * k_components;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Element that a cell of the file corresponds to.
 struct ElementOfCell {
@@ -69,7 +66,7 @@ void solve_upper(const Small& l, std::size_t n, double* x) {
 void StressRecovery::measure_cells(AnalysisKind kind) {
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     const mesh::BlockGeometry g(mesh_, block, kind, mesh::stiffness_rule(block.shape));
-    const auto n_nodes = at(g.n_nodes);
+    const auto n_nodes = as_size(g.n_nodes);
     std::vector<double> weight(n_nodes);
     for (Index e = 0; e < g.n_elements; ++e) {
       std::fill(weight.begin(), weight.end(), 0.0);
@@ -78,9 +75,9 @@ void StressRecovery::measure_cells(AnalysisKind kind) {
       for (int q = 0; q < g.n_points; ++q) {
         const double w = g.weight_at(e / k_lanes, q)[e % k_lanes];
         volume += w;
-        for (std::size_t a = 0; a < n_nodes; ++a) weight[a] += w * g.values[at(q) * n_nodes + a];
+        for (std::size_t a = 0; a < n_nodes; ++a) weight[a] += w * g.values[as_size(q) * n_nodes + a];
       }
-      const auto x = [&](std::size_t a) { return mesh_.x[at(block.element(e)[a])]; };
+      const auto x = [&](std::size_t a) { return mesh_.x[as_size(block.element(e)[a])]; };
       mesh::Point centre{};
       for (std::size_t a = 0; a < n_nodes; ++a)
         for (std::size_t i = 0; i < 3; ++i) centre[i] += weight[a] / volume * x(a)[i];
@@ -122,7 +119,7 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind) : mesh
 /// and the inverse there.
 void StressRecovery::spread(Patch& patch) const {
   // The middle of the centroids, around which the stress is fitted.
-  const std::size_t dim = at(mesh_.dimension);
+  const std::size_t dim = as_size(mesh_.dimension);
   const double n = static_cast<double>(patch.cells.size());
   for (const std::size_t c : patch.cells)
     for (std::size_t i = 0; i < 3; ++i) patch.centre[i] += centroid_[c][i] / n;
@@ -180,25 +177,25 @@ std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int
   const std::size_t n = mesh_.x.size();
   std::vector<double> result(k_components * n, 0.0), bodies(n, 0.0);
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
-    if (asked >= 0 && body != static_cast<std::size_t>(asked)) continue;
+    if (asked >= 0 && body != as_size(asked)) continue;
     std::vector<double> fits(k_fit * n, 0.0);
     for (const Patch& patch : patches_) {
-      if (at(patch.body) != body) continue;
-      find_fit(patch, stress, fits.data() + k_fit * at(patch.node));
+      if (as_size(patch.body) != body) continue;
+      find_fit(patch, stress, fits.data() + k_fit * as_size(patch.node));
     }
     // Ghosts get the fits of their owners, since a node may need that of a neighbour.
     ghosts_.update(fits, static_cast<int>(k_fit));
     // A node whose own patch has a lower rank than one around it (at a corner, say) takes the mean of the
     // better fits, extended to its place.
     for (const Patch& patch : patches_) {
-      if (at(patch.body) != body) continue;
-      const auto node = at(patch.node);
+      if (as_size(patch.body) != body) continue;
+      const auto node = as_size(patch.node);
       std::vector<Index> near;
       double best = 0;
       for (const std::size_t c : patch.cells)
         for (int a = 0; a < mesh::node_count(cells[c].block->shape); ++a) {
           near.push_back(cells[c].block->element(cells[c].element)[a]);
-          best = std::max(best, fits[k_fit * at(near.back())]);
+          best = std::max(best, fits[k_fit * as_size(near.back())]);
         }
       std::sort(near.begin(), near.end());
       near.erase(std::unique(near.begin(), near.end()), near.end());
@@ -206,7 +203,7 @@ std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int
       double used = 0;
       std::array<double, k_components> sum{};
       for (const Index other : near) {
-        const double* const fit = fits.data() + k_fit * at(other);
+        const double* const fit = fits.data() + k_fit * as_size(other);
         if (fit[0] < best) continue;
         used += 1;
         for (std::size_t k = 0; k < k_components; ++k) {
@@ -233,7 +230,7 @@ std::vector<double> principal_values(std::span<const double> tensors, int rank) 
     Small m{t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]};
     std::array<double, 3> principal{};
     find_symmetric_eigen(m, principal, {});
-    values.push_back(principal[at(2 - rank)]);
+    values.push_back(principal[as_size(2 - rank)]);
   }
   return values;
 }

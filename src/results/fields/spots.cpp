@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::results {
 
 namespace {
 
 std::span<const Index> nodes_of_element(const mesh::ElementBlock& block, Index element) {
-  return {block.element(element), static_cast<std::size_t>(mesh::node_count(block.shape))};
+  return {block.element(element), as_size(mesh::node_count(block.shape))};
 }
 
 }  // namespace
@@ -17,23 +19,22 @@ mesh::Point centre(const mesh::Mesh& mesh, const mesh::ElementBlock& block, Inde
   mesh::Point sum{};
   const int n = mesh::node_count(block.shape);
   for (int a = 0; a < n; ++a)
-    for (std::size_t k = 0; k < 3; ++k)
-      sum[k] += mesh.x[static_cast<std::size_t>(block.element(element)[a])][k] / n;
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += mesh.x[as_size(block.element(element)[a])][k] / n;
   return sum;
 }
 
 std::vector<char> nodes_of(const mesh::Mesh& mesh, const std::vector<char>& bodies) {
   std::vector<char> chosen(mesh.x.size(), 0);
   for (const mesh::ElementBlock& block : mesh.blocks)
-    if (bodies[static_cast<std::size_t>(block.body)] != 0)
-      for (const Index node : block.nodes) chosen[static_cast<std::size_t>(node)] = 1;
+    if (bodies[as_size(block.body)] != 0)
+      for (const Index node : block.nodes) chosen[as_size(node)] = 1;
   return chosen;
 }
 
 std::optional<Spot> node_spot(const mesh::Mesh& mesh, const mesh::Point& where,
                               const std::vector<char>& counts) {
   std::size_t own = 0;
-  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  const auto n_owned = as_size(mesh.n_owned_nodes);
   // The own node at that place, and its neighbours over elements.
   while (own < n_owned && (counts[own] == 0 || mesh.x[own] != where)) ++own;
   if (own == n_owned) return {};
@@ -42,10 +43,9 @@ std::optional<Spot> node_spot(const mesh::Mesh& mesh, const mesh::Point& where,
   for (const mesh::ElementBlock& block : mesh.blocks)
     for (Index e = 0; e < block.size(); ++e) {
       const std::span<const Index> nodes = nodes_of_element(block, e);
-      if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(own)) == nodes.end()) continue;
+      if (std::find(nodes.begin(), nodes.end(), as_index(own)) == nodes.end()) continue;
       for (const Index node : nodes)
-        if (const auto i = static_cast<std::size_t>(node); i != own && counts[i] != 0)
-          spot.around.push_back(i);
+        if (const auto i = as_size(node); i != own && counts[i] != 0) spot.around.push_back(i);
     }
   std::sort(spot.around.begin(), spot.around.end());
   spot.around.erase(std::unique(spot.around.begin(), spot.around.end()), spot.around.end());
@@ -60,8 +60,8 @@ std::optional<Spot> element_spot(const mesh::Mesh& mesh, const mesh::Point& wher
   const auto visit = [&](const auto& look) {
     std::size_t first = 0;
     for (const mesh::ElementBlock& block : mesh.blocks) {
-      for (Index e = 0; e < block.size(); ++e) look(block, e, first + static_cast<std::size_t>(e));
-      first += static_cast<std::size_t>(block.size());
+      for (Index e = 0; e < block.size(); ++e) look(block, e, first + as_size(e));
+      first += as_size(block.size());
     }
   };
   // The element whose centre is there, then all of its body that share a node with it.

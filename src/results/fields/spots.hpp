@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/fields/field.hpp"
 
 namespace solidus::results {
@@ -19,7 +20,7 @@ class FieldValues {
     const Field* field = fields.find(name);
     if (field == nullptr) return;
     values_ = field->read(storage_);
-    components_ = static_cast<std::size_t>(field->components);
+    components_ = as_size(field->components);
   }
   FieldValues(const FieldValues&) = delete;
   FieldValues& operator=(const FieldValues&) = delete;

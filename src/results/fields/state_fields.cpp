@@ -9,6 +9,7 @@
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "mechanics/quantities.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/fields/heat_flux.hpp"
 
 namespace solidus::results {
@@ -178,12 +179,12 @@ void StateFields::find_side_areas(AnalysisKind kind) {
       if (surface == mesh_.surfaces.end()) continue;  // a rigid one
       for (const mesh::ElementBlock& faces : surface->second.faces) {
         const mesh::FaceGeometry g(mesh_, faces, kind, mesh::gauss_rule(faces.shape, 4));
-        const auto n = static_cast<std::size_t>(g.n_nodes), n_points = static_cast<std::size_t>(g.n_points);
+        const auto n = as_size(g.n_nodes), n_points = as_size(g.n_points);
         for (Index f = 0; f < g.n_faces; ++f)
           for (std::size_t q = 0; q < n_points; ++q)
             for (std::size_t a = 0; a < n; ++a)
-              sides[side][static_cast<std::size_t>(faces.element(f)[a])] +=
-                  g.values[q * n + a] * g.weight[static_cast<std::size_t>(f) * n_points + q];
+              sides[side][as_size(faces.element(f)[a])] +=
+                  g.values[q * n + a] * g.weight[as_size(f) * n_points + q];
       }
     }
   }
@@ -320,7 +321,7 @@ void StateFields::update_contacts(std::span<const double> temperature) {
     const contact::ContactNodalFields fields = contact::nodal_fields(pair->view(), temperature);
     std::vector<char> closest(fields.nodes.size(), 0);
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
-      const auto i = static_cast<std::size_t>(fields.nodes[k]);
+      const auto i = as_size(fields.nodes[k]);
       if (!std::isfinite(fields.opening[k]) || (seen[i] != 0 && gap[i] <= fields.opening[k])) continue;
       seen[i] = closest[k] = 1;
       gap[i] = fields.opening[k];
@@ -344,7 +345,7 @@ void StateFields::update_heat(const contact::ContactNodalFields& fields, std::sp
     const auto found = by_name_.find(quantity.name);
     if (found == by_name_.end()) return;
     for (std::size_t k = 0; k < values.size(); ++k)
-      if (closest[k] != 0) (*found->second)[static_cast<std::size_t>(fields.nodes[k])] = values[k];
+      if (closest[k] != 0) (*found->second)[as_size(fields.nodes[k])] = values[k];
   };
   show(of_contact::k_contact_heat_flux, fields.heat_flux);
   show(of_contact::k_frictional_heat_flux, fields.frictional_heat_flux);
@@ -352,7 +353,7 @@ void StateFields::update_heat(const contact::ContactNodalFields& fields, std::sp
   // The slave's alone: the master remembers none.
   for (std::size_t k = 0; interface != by_name_.end() && k < fields.temperature.size(); ++k)
     if (closest[k] != 0 && std::isfinite(fields.temperature[k]))
-      (*interface->second)[static_cast<std::size_t>(fields.nodes[k])] = fields.temperature[k];
+      (*interface->second)[as_size(fields.nodes[k])] = fields.temperature[k];
 }
 
 // Updates the fields of friction. The history fields of a surface in several pairs are the largest of all
@@ -362,9 +363,9 @@ void StateFields::update_friction(const contact::ContactNodalFields& fields, std
       &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};
   std::vector<double>&traction = values_of(of_contact::k_friction_traction),
   &status = values_of(of_contact::k_contact_status);
-  const auto components = static_cast<std::size_t>(phases_.mechanics->bodies().components);
+  const auto components = as_size(phases_.mechanics->bodies().components);
   for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
-    const auto i = static_cast<std::size_t>(fields.nodes[k]);
+    const auto i = as_size(fields.nodes[k]);
     for (std::size_t f = 0; f < remembered.size(); ++f) {
       double& value = values_of(*k_remembered[f])[i];
       value = std::fmax(value, (*remembered[f])[k]);  // NaN where the node has none

@@ -9,6 +9,8 @@
 #include <map>
 #include <numeric>
 
+#include "numbers/index_casts.hpp"
+
 namespace solidus::results {
 
 namespace {
@@ -55,7 +57,7 @@ std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveS
   std::vector<Index> part(mesh.x.size(), -1);
   // The root of a set is the node that is its own parent.
   const auto root = [&part](Index node) {
-    while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
+    while (part[as_size(node)] != node) node = part[as_size(node)];
     return node;
   };
   for (const mesh::ElementBlock& block : mesh.blocks) {
@@ -65,15 +67,15 @@ std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveS
       for (int a = 0; a < n; ++a) {
         // Disjoint sets of nodes: an element joins its nodes, and the smaller number is the root.
         const Index node = block.element(e)[a];
-        if (part[static_cast<std::size_t>(node)] < 0) part[static_cast<std::size_t>(node)] = node;
+        if (part[as_size(node)] < 0) part[as_size(node)] = node;
         const Index mine = root(node), first = root(block.element(e)[0]);
-        part[static_cast<std::size_t>(std::max(mine, first))] = std::min(mine, first);
-        part[static_cast<std::size_t>(node)] = std::min(mine, first);
+        part[as_size(std::max(mine, first))] = std::min(mine, first);
+        part[as_size(node)] = std::min(mine, first);
       }
   }
   // At last every node names its root directly.
   for (std::size_t i = 0; i < part.size(); ++i)
-    if (part[i] >= 0) part[i] = root(static_cast<Index>(i));
+    if (part[i] >= 0) part[i] = root(as_index(i));
   return part;
 }
 
@@ -94,7 +96,7 @@ class Motions {
   }
   Row row(Index node, std::size_t component) const {
     Row row{};
-    mesh::Point r = mesh_.x[static_cast<std::size_t>(node)];
+    mesh::Point r = mesh_.x[as_size(node)];
     // Places are scaled by the part's size, so that translations and rotations weigh alike.
     for (std::size_t i = 0; i < 3; ++i) r[i] = (r[i] - part_.centre[i]) / part_.size;
     switch (kind_) {
@@ -125,13 +127,13 @@ class Motions {
 std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>& part_of) {
   std::map<Index, Part> parts;
   for (std::size_t i = 0; i < part_of.size(); ++i)
-    if (part_of[i] >= 0) parts[part_of[i]].nodes.push_back(static_cast<Index>(i));
+    if (part_of[i] >= 0) parts[part_of[i]].nodes.push_back(as_index(i));
   for (auto& [first, part] : parts) {
     for (const Index node : part.nodes)
       for (std::size_t i = 0; i < 3; ++i)
-        part.centre[i] += mesh.x[static_cast<std::size_t>(node)][i] / static_cast<double>(part.nodes.size());
+        part.centre[i] += mesh.x[as_size(node)][i] / static_cast<double>(part.nodes.size());
     for (const Index node : part.nodes) {
-      const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+      const mesh::Point& x = mesh.x[as_size(node)];
       part.size = std::max(part.size,
                            std::hypot(x[0] - part.centre[0], x[1] - part.centre[1], x[2] - part.centre[2]));
     }
@@ -144,7 +146,7 @@ std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>&
 std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
                                     std::span<const std::vector<Index>> constraints) {
-  const auto components = static_cast<std::size_t>(displacement_components(kind));
+  const auto components = as_size(displacement_components(kind));
   const std::vector<Index> part_of = connected_parts(mesh, active);
   std::vector<Index> supports;
   for (const auto& [first, part] : parts_of(mesh, part_of)) {
@@ -153,16 +155,16 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::Active
     // What the case holds already takes away some of the free motions.
     for (const Index node : part.nodes)
       for (std::size_t k = 0; k < components && held.size() < motions.count(); ++k)
-        if (fixed[static_cast<std::size_t>(node) * components + k] != 0) held.add(motions.row(node, k));
+        if (fixed[as_size(node) * components + k] != 0) held.add(motions.row(node, k));
     // Where degrees of freedom move as one, their differences are held; those of other parts hold nothing
     // here.
     for (const std::vector<Index>& group : constraints) {
-      const auto n = static_cast<Index>(components);
-      if (part_of[static_cast<std::size_t>(group[0] / n)] != first) continue;
-      const Row leader = motions.row(group[0] / n, static_cast<std::size_t>(group[0] % n));
+      const auto n = as_index(components);
+      if (part_of[as_size(group[0] / n)] != first) continue;
+      const Row leader = motions.row(group[0] / n, as_size(group[0] % n));
       for (const Index entry : group) {
-        if (part_of[static_cast<std::size_t>(entry / n)] != first) continue;
-        Row row = motions.row(entry / n, static_cast<std::size_t>(entry % n));
+        if (part_of[as_size(entry / n)] != first) continue;
+        Row row = motions.row(entry / n, as_size(entry % n));
         for (std::size_t i = 0; i < k_most_modes; ++i) row[i] -= leader[i];
         if (held.size() < motions.count()) held.add(row);
       }
@@ -179,7 +181,7 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::Active
           if (const double length = dot(rest, rest); length > most * (1 + 1e-9)) {
             most = length;
             best = row;
-            entry = node * static_cast<Index>(components) + static_cast<Index>(k);
+            entry = node * as_index(components) + as_index(k);
           }
         }
       if (entry < 0 || !held.add(best)) break;  // a part of one point or line

@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "results/formats/hdf5_file.hpp"
 #include "results/output/output_error.hpp"
 #include "system/sandbox.hpp"
@@ -49,7 +50,7 @@ bool transfer_all(const Transfer& transfer, std::size_t n) {
     const ssize_t some = transfer(done, n - done);
     if (some < 0 && errno == EINTR) continue;
     if (some <= 0) return false;
-    done += static_cast<std::size_t>(some);
+    done += as_size(some);
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "mesh/files/med_cells.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/formats/field_moments.hpp"
 #include "results/output/output_error.hpp"
 #include "system/errors.hpp"
@@ -81,8 +82,7 @@ std::vector<CellBlock> cell_blocks(const FieldMoment& moment) {
       if (block == blocks.end()) block = blocks.insert(block, CellBlock{&*kind, {}, {}});
       block->cells.push_back(first_cell + c);
       for (const int i : kind->order)
-        block->nodes.push_back(static_cast<med_int>(first_point) + 1 +
-                               table.corners[begin + static_cast<std::size_t>(i)]);
+        block->nodes.push_back(static_cast<med_int>(first_point) + 1 + table.corners[begin + as_size(i)]);
       begin = table.offsets[c];
     }
     first_point += piece.n_points;

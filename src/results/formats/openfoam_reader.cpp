@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "input/keys.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::results {
 
@@ -93,7 +94,7 @@ class FoamFile {
     const auto n = number<std::int64_t>();
     if (n < 0 || static_cast<std::uint64_t>(n) > (text_.size() - at_) / 2 + 1)
       fail(fmt::format("a list of {} entries, more than the file has room for", n));
-    return static_cast<std::size_t>(n);
+    return as_size(n);
   }
 
  private:
@@ -106,7 +107,7 @@ class FoamFile {
     constexpr double k_free = 64e6, k_most_times = 100;
     const double most = k_free + k_most_times * static_cast<double>(fs::file_size(path_));
     while ((n = gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
-      text_.append(piece.data(), static_cast<std::size_t>(n));
+      text_.append(piece.data(), as_size(n));
       if (static_cast<double>(text_.size()) > most)
         throw InputError({path_.string()}, "the compressed file holds more than 100 times its size");
     }
@@ -188,7 +189,7 @@ PolyMesh read_mesh(const fs::path& folder, double length, const SourceLocation& 
     faces.expect("(");
     for (std::size_t k = 0; k < n; ++k) {
       mesh.corners.push_back(faces.number<Index>());
-      if (mesh.corners.back() < 0 || static_cast<std::size_t>(mesh.corners.back()) >= mesh.points.size())
+      if (mesh.corners.back() < 0 || as_size(mesh.corners.back()) >= mesh.points.size())
         faces.fail("a face has a corner that is no point");
     }
     faces.expect(")");
@@ -201,9 +202,9 @@ PolyMesh read_mesh(const fs::path& folder, double length, const SourceLocation& 
     throw InputError({folder.string()}, "faces, owner and neighbour of the mesh do not fit each other");
   for (const std::vector<Index>* cells : {&mesh.owner, &mesh.neighbour})
     for (const Index cell : *cells) {
-      if (cell < 0 || static_cast<std::size_t>(cell) > n_faces)
+      if (cell < 0 || as_size(cell) > n_faces)
         throw InputError({folder.string()}, "a face of the mesh belongs to no cell");
-      mesh.n_cells = std::max(mesh.n_cells, static_cast<std::size_t>(cell) + 1);
+      mesh.n_cells = std::max(mesh.n_cells, as_size(cell) + 1);
     }
   if (mesh.n_cells == 0) throw InputError({folder.string()}, "the mesh has no cells");
   return mesh;
@@ -216,8 +217,8 @@ void for_each_triangle(const PolyMesh& mesh, const F& use) {
   for (std::size_t f = 0; f < mesh.n_faces(); ++f)
     for (std::size_t k = mesh.first[f] + 2; k < mesh.first[f + 1]; ++k) {
       const Index a = mesh.corners[mesh.first[f]], b = mesh.corners[k - 1], c = mesh.corners[k];
-      use(static_cast<std::size_t>(mesh.owner[f]), a, b, c);
-      if (f < mesh.neighbour.size()) use(static_cast<std::size_t>(mesh.neighbour[f]), a, c, b);
+      use(as_size(mesh.owner[f]), a, b, c);
+      if (f < mesh.neighbour.size()) use(as_size(mesh.neighbour[f]), a, c, b);
     }
 }
 
@@ -237,7 +238,7 @@ std::vector<Point> centres(const PolyMesh& mesh) {
   std::vector<double> count(mesh.n_cells, 0.0);
   for_each_triangle(mesh, [&](std::size_t cell, Index a, Index b, Index c) {
     for (const Index node : {a, b, c})
-      for (std::size_t i = 0; i < 3; ++i) centre[cell][i] += mesh.points[static_cast<std::size_t>(node)][i];
+      for (std::size_t i = 0; i < 3; ++i) centre[cell][i] += mesh.points[as_size(node)][i];
     count[cell] += 3;
   });
   for (std::size_t c = 0; c < centre.size(); ++c)
@@ -334,7 +335,7 @@ FoamFile open_field(const fs::path& folder, const std::string& name, const Sourc
 /// @param read  has the mesh and the volumes of cells
 void spread_to_points(const FoamField& field, const PolyMesh& poly, ReadField& read) {
   const mesh::Mesh& mesh = read.mesh;
-  const auto n_points = static_cast<Index>(poly.points.size());
+  const auto n_points = as_index(poly.points.size());
   const std::vector<double>& given = field.values;
   std::vector<double> sum(mesh.x.size(), 0.0), weight(mesh.x.size(), 0.0);
   read.values.assign(mesh.x.size(), 0.0);
@@ -342,13 +343,13 @@ void spread_to_points(const FoamField& field, const PolyMesh& poly, ReadField& r
     std::copy(given.begin(), given.end(), read.values.begin());
     for_each_triangle(poly, [&](std::size_t cell, Index a, Index b, Index c) {
       const std::size_t at = poly.points.size() + cell;
-      for (const Index node : {a, b, c}) sum[at] += given[static_cast<std::size_t>(node)], weight[at] += 1;
+      for (const Index node : {a, b, c}) sum[at] += given[as_size(node)], weight[at] += 1;
     });
   } else {
     for_each_triangle(poly, [&](std::size_t cell, Index a, Index b, Index c) {
       for (const Index node : {a, b, c}) {
-        sum[static_cast<std::size_t>(node)] += read.cell_volumes[cell] * given[cell];
-        weight[static_cast<std::size_t>(node)] += read.cell_volumes[cell];
+        sum[as_size(node)] += read.cell_volumes[cell] * given[cell];
+        weight[as_size(node)] += read.cell_volumes[cell];
       }
     });
     std::copy(given.begin(), given.end(), read.values.begin() + n_points);
@@ -380,14 +381,12 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
   mesh.x = poly.points;
   const std::vector<Point> centre = centres(poly);
   mesh.x.insert(mesh.x.end(), centre.begin(), centre.end());
-  const auto n_points = static_cast<Index>(poly.points.size());
+  const auto n_points = as_index(poly.points.size());
   mesh::ElementBlock block{.shape = mesh::Shape::tet4, .body = 0, .nodes = {}, .input_element = {}};
   for_each_triangle(poly, [&](std::size_t cell, Index a, Index b, Index c) {
-    const auto corner = [&](Index node) -> const Point& {
-      return poly.points[static_cast<std::size_t>(node)];
-    };
+    const auto corner = [&](Index node) -> const Point& { return poly.points[as_size(node)]; };
     read.cell_volumes[cell] += tetrahedron(centre[cell], corner(a), corner(b), corner(c));
-    block.nodes.insert(block.nodes.end(), {n_points + static_cast<Index>(cell), a, b, c});
+    block.nodes.insert(block.nodes.end(), {n_points + as_index(cell), a, b, c});
     block.input_element.push_back(static_cast<GlobalIndex>(cell) + 1);
   });
   for (std::size_t cell = 0; cell < poly.n_cells; ++cell)
@@ -397,7 +396,7 @@ ReadField read_openfoam(const fs::path& time, const std::string& name, double le
   spread_to_points(field, poly, read);
 
   mesh.dimension = 3;
-  mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
+  mesh.n_owned_nodes = as_index(mesh.x.size());
   mesh.n_global_nodes = mesh.n_owned_nodes;
   mesh.bodies.push_back({"body"});
   block.n_counted = block.size();

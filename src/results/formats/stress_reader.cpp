@@ -9,6 +9,7 @@
 #include "input/keys.hpp"
 #include "mesh/files/vtu_arrays.hpp"
 #include "mesh/files/vtu_pieces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::results {
 
@@ -83,7 +84,7 @@ void add_piece(const VtuFile& file, const ptree& piece, const Wanted& wanted, Re
     if ((wanted.body >= 0 && bodies[c] != wanted.body) || (!ghosts.empty() && ghosts[c] != 0)) continue;
     mesh::Point middle{};
     for (std::size_t k = begin; k < cells.offsets[c]; ++k) {
-      const auto corner = static_cast<std::size_t>(cells.corners[k]);
+      const auto corner = as_size(cells.corners[k]);
       const mesh::Point at = point(corner);
       for (std::size_t i = 0; i < 3; ++i) middle[i] += at[i] / static_cast<double>(cells.offsets[c] - begin);
       if (!field.of_cells && taken[corner] == 0) add(at, &values[k_components * corner], read);

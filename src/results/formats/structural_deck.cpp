@@ -14,6 +14,7 @@
 #include "material/tensile.hpp"
 #include "mesh/files/abaqus_elements.hpp"
 #include "mesh/surfaces/faces.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/formats/deck_elements.hpp"
 
 namespace solidus::results {
@@ -51,7 +52,7 @@ class Writer {
   Writer(const StructuralDeck& deck, Dialect dialect)
       : d_(deck),
         calculix_(dialect == Dialect::calculix),
-        components_(static_cast<std::size_t>(displacement_components(deck.kind))) {
+        components_(as_size(displacement_components(deck.kind))) {
     number_elements();
     names_.reserve("nset", k_all);
   }
@@ -85,7 +86,7 @@ class Writer {
     out_ += fmt::format(format, std::forward<Args>(args)...);
     out_ += '\n';
   }
-  GlobalIndex node(Index local) const { return d_.mesh.input_node[static_cast<std::size_t>(local)]; }
+  GlobalIndex node(Index local) const { return d_.mesh.input_node[as_size(local)]; }
   bool there(std::size_t block) const { return d_.active.body(d_.mesh.blocks[block].body); }
 
   void number_elements() {
@@ -110,9 +111,9 @@ class Writer {
     line("*NODE, NSET={}", k_all);
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i) {
       if (!d_.active.node(i)) continue;
-      mesh::Point x = d_.mesh.x[static_cast<std::size_t>(i)];
+      mesh::Point x = d_.mesh.x[as_size(i)];
       for (std::size_t k = 0; k < components_ && !d_.displacement.empty(); ++k)
-        x[k] += d_.displacement[static_cast<std::size_t>(i) * components_ + k];
+        x[k] += d_.displacement[as_size(i) * components_ + k];
       line("{}, {:.12e}, {:.12e}, {:.12e}", node(i), x[0], x[1], x[2]);
     }
   }
@@ -125,11 +126,11 @@ class Writer {
       line("*ELEMENT, TYPE={}, ELSET={}", deck_element_type(d_.kind, block.shape), body_set(block.body));
       // Nodes in the order of the program that reads the deck.
       const auto order = mesh::abaqus_node_order(block.shape);
-      const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+      const auto n = as_size(mesh::node_count(block.shape));
       std::vector<GlobalIndex> theirs(n);
       for (Index e = 0; e < block.size(); ++e) {
         for (std::size_t a = 0; a < n; ++a)
-          theirs[order.empty() ? a : static_cast<std::size_t>(order[a])] = node(block.element(e)[a]);
+          theirs[order.empty() ? a : as_size(order[a])] = node(block.element(e)[a]);
         // The number of the element, then its nodes.
         std::string text = std::to_string(first_[b] + e);
         std::size_t on_line = 1;
@@ -145,7 +146,7 @@ class Writer {
     }
   }
 
-  const std::string& body_set(int body) { return names_("elset", name_of(static_cast<std::size_t>(body))); }
+  const std::string& body_set(int body) { return names_("elset", name_of(as_size(body))); }
   const std::string& name_of(std::size_t body) const {
     return d_.body_names.empty() ? d_.mesh.bodies[body].name : d_.body_names[body];
   }
@@ -185,8 +186,7 @@ class Writer {
         for (int k = 0; k < mesh::face_count(block.shape); ++k) {
           const auto local = mesh::face_nodes(block.shape, k);
           std::array<Index, 4> nodes{};
-          for (std::size_t i = 0; i < static_cast<std::size_t>(vertices); ++i)
-            nodes[i] = block.element(e)[local[i]];
+          for (std::size_t i = 0; i < as_size(vertices); ++i) nodes[i] = block.element(e)[local[i]];
           const auto found = behind.find(mesh::face_key(nodes.data(), vertices));
           if (found != behind.end()) found->second = {first_[b] + e, deck_face_label(block.shape, k)};
         }
@@ -265,8 +265,8 @@ class Writer {
              node(node_of(group[0])), component_of(group[0]));
       }
   }
-  Index node_of(Index entry) const { return entry / static_cast<Index>(components_); }
-  Index component_of(Index entry) const { return entry % static_cast<Index>(components_) + 1; }
+  Index node_of(Index entry) const { return entry / as_index(components_); }
+  Index component_of(Index entry) const { return entry % as_index(components_) + 1; }
 
   void initial_conditions() {
     line("*INITIAL CONDITIONS, TYPE=TEMPERATURE");
@@ -290,7 +290,7 @@ class Writer {
   void stress_of_points(std::size_t b, std::size_t e, const std::vector<int>& points) {
     for (std::size_t q = 0; q < points.size(); ++q)
       line("{}, {}, {}", first_[b] + static_cast<GlobalIndex>(e), q + 1,
-           in_their_order(d_.stress[b][e][static_cast<std::size_t>(points[q])]));
+           in_their_order(d_.stress[b][e][as_size(points[q])]));
   }
   void stress_of_element(std::size_t b, std::size_t e) {
     std::array<double, 6> mean{};
@@ -303,7 +303,7 @@ class Writer {
   void hardening() {
     bool begun = false;
     for (std::size_t b = 0; b < d_.plastic_strain.size(); ++b) {
-      const auto body = static_cast<std::size_t>(d_.mesh.blocks[b].body);
+      const auto body = as_size(d_.mesh.blocks[b].body);
       if (!there(b) || !d_.materials[body].flow) continue;
       if (!begun) line("*INITIAL CONDITIONS, TYPE=HARDENING");
       begun = true;
@@ -314,7 +314,7 @@ class Writer {
 
   void temperatures_of(std::span<const double> temperature) {
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i)
-      if (d_.active.node(i)) line("{}, {:.10g}", node(i), temperature[static_cast<std::size_t>(i)]);
+      if (d_.active.node(i)) line("{}, {:.10g}", node(i), temperature[as_size(i)]);
   }
 
   /// Writes the step to a moment of the history. Supports of the first step stay in those that follow.
@@ -335,7 +335,7 @@ class Writer {
     std::string boundary;
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i)
       for (std::size_t k = 0; d_.active.node(i) && k < components_; ++k)
-        if (d_.fixed[static_cast<std::size_t>(i) * components_ + k] != 0)
+        if (d_.fixed[as_size(i) * components_ + k] != 0)
           boundary += fmt::format("{}, {}, {}\n", node(i), k + 1, k + 1);
     if (!boundary.empty()) out_ += "*BOUNDARY\n" + boundary;
     if (d_.supports.empty()) return;
@@ -368,7 +368,7 @@ class Writer {
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i) {
       if (!d_.active.node(i)) continue;
       for (std::size_t k = 0; k < components_; ++k) {
-        const std::size_t at = static_cast<std::size_t>(i) * components_ + k;
+        const std::size_t at = as_size(i) * components_ + k;
         if (d_.fixed[at] == 0 && std::abs(d_.force[at]) > k_rounding * largest)
           loads += fmt::format("{}, {}, {:.12e}\n", node(i), k + 1, d_.force[at]);
       }

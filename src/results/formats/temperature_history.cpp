@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "mesh/files/vtu_pieces.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/formats/pvd.hpp"
 #include "system/errors.hpp"
 
@@ -38,7 +39,7 @@ void read_file(const fs::path& path, const LocalNodes& local, std::vector<double
     const std::vector<double> node = file.numbers(*numbers, n), value = file.numbers(*values, n);
     for (std::size_t i = 0; i < n; ++i)
       if (const auto found = local.find(mesh::whole_number(node[i])); found != local.end())
-        temperature[static_cast<std::size_t>(found->second)] = value[i];
+        temperature[as_size(found->second)] = value[i];
   }
 }
 
@@ -51,7 +52,7 @@ std::vector<TemperatureMoment> read_temperature_history(const fs::path& collecti
   // Nodes are found by their numbers in the input, as files hold those of all processes.
   LocalNodes local;
   for (Index i = 0; i < mesh.n_nodes(); ++i)
-    if (active.node(i)) local.emplace(mesh.input_node[static_cast<std::size_t>(i)], i);
+    if (active.node(i)) local.emplace(mesh.input_node[as_size(i)], i);
   // Only parts that are bodies have a number of zero; contact surfaces are left out.
   std::vector<TemperatureMoment> history;
   const PvdCollection all(collection, std::numeric_limits<double>::infinity());
@@ -62,7 +63,7 @@ std::vector<TemperatureMoment> read_temperature_history(const fs::path& collecti
     const fs::path path = collection.parent_path() / entry.file;
     read_file(path, local, moment.temperature);
     for (const auto& [number, node] : local)
-      if (!(moment.temperature[static_cast<std::size_t>(node)] > 0))
+      if (!(moment.temperature[as_size(node)] > 0))
         throw InputError({path.string()}, "the file has no temperature of node " + std::to_string(number));
     history.push_back(std::move(moment));
   }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "mesh/files/vtk_cells.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/formats/vtk_data.hpp"
 #include "results/output/output_file.hpp"
 #include "system/processes.hpp"
@@ -38,20 +39,19 @@ Part make_part(const Mesh& mesh, std::span<const ElementBlock> blocks, bool volu
   Part part{mesh, blocks, volume, {}, std::vector<Index>(mesh.x.size(), -1)};
   // Nodes that the elements of this part use, numbered in the order of the mesh.
   for (const ElementBlock& block : blocks) {
-    const auto n = static_cast<std::size_t>(block.n_counted);
+    const auto n = as_size(block.n_counted);
     part.n_cells += n;
-    part.n_corners += n * static_cast<std::size_t>(mesh::node_count(block.shape));
+    part.n_corners += n * as_size(mesh::node_count(block.shape));
     for (Index e = 0; e < block.n_counted; ++e)
-      for (int a = 0; a < mesh::node_count(block.shape); ++a)
-        part.number[static_cast<std::size_t>(block.element(e)[a])] = 0;
+      for (int a = 0; a < mesh::node_count(block.shape); ++a) part.number[as_size(block.element(e)[a])] = 0;
   }
   // Numbers of the file follow from the marks.
   part.nodes.reserve(part.number.size() -
-                     static_cast<std::size_t>(std::count(part.number.begin(), part.number.end(), Index{-1})));
+                     as_size(std::count(part.number.begin(), part.number.end(), Index{-1})));
   for (std::size_t node = 0; node < part.number.size(); ++node)
     if (part.number[node] == 0) {
-      part.number[node] = static_cast<Index>(part.nodes.size());
-      part.nodes.push_back(static_cast<Index>(node));
+      part.number[node] = as_index(part.nodes.size());
+      part.nodes.push_back(as_index(node));
     }
   return part;
 }
@@ -65,7 +65,7 @@ ArrayHead head_of(const Field& field) {
 }
 
 std::string near(const Mesh& mesh, Index node) {
-  const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+  const mesh::Point& x = mesh.x[as_size(node)];
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]);
 }
 
@@ -77,8 +77,8 @@ std::string add_field(AppendedData& data, const Part& part, const Field& field) 
   const std::span<const double> values = field.read(storage);
   const Mesh& mesh = part.mesh;
   check_size(mesh, field, values.size());
-  const auto nc = static_cast<std::size_t>(field.components);
-  const auto pad = static_cast<std::size_t>(file_components(field)) - nc;
+  const auto nc = as_size(field.components);
+  const auto pad = as_size(file_components(field)) - nc;
   // Values at nodes go by the file's order of nodes, values of cells by the order of blocks.
   const bool at_nodes = field.place == mesh::FieldPlace::node;
   const std::size_t n = (at_nodes ? part.nodes.size() : part.n_cells) * (nc + pad);
@@ -93,17 +93,16 @@ std::string add_field(AppendedData& data, const Part& part, const Field& field) 
     // A value that is not finite is told with the node or the element, and where that is.
     if (at_nodes)
       for (const Index node : part.nodes)
-        take(static_cast<std::size_t>(node), [&] {
-          return fmt::format("node {} {}", mesh.input_node[static_cast<std::size_t>(node)], near(mesh, node));
-        });
+        take(as_size(node),
+             [&] { return fmt::format("node {} {}", mesh.input_node[as_size(node)], near(mesh, node)); });
     std::size_t first = 0;
     for (const ElementBlock& block : at_nodes ? std::span<const ElementBlock>() : part.blocks) {
       for (Index e = 0; e < block.n_counted; ++e)
-        take(first + static_cast<std::size_t>(e), [&] {
-          return fmt::format("element {} near {}", block.input_element[static_cast<std::size_t>(e)],
+        take(first + as_size(e), [&] {
+          return fmt::format("element {} near {}", block.input_element[as_size(e)],
                              near(mesh, block.element(e)[0]));
         });
-      first += static_cast<std::size_t>(block.size());
+      first += as_size(block.size());
     }
   });
 }
@@ -123,7 +122,7 @@ std::string add_of_cells(AppendedData& data, const Part& part, const std::string
 std::string add_points(AppendedData& data, const Part& part) {
   return data.add<double>({"Points", 3, "m"}, 3 * part.nodes.size(), [&](const auto& put) {
     for (const Index node : part.nodes)
-      for (const double x : part.mesh.x[static_cast<std::size_t>(node)]) put(x);
+      for (const double x : part.mesh.x[as_size(node)]) put(x);
   });
 }
 
@@ -140,7 +139,7 @@ std::string add_cells(AppendedData& data, const Part& part) {
         for (const ElementBlock& block : part.blocks) {
           const auto order = vtk_node_order(block.shape);
           for (Index e = 0; e < block.n_counted; ++e)
-            for (const int a : order) put(part.number[static_cast<std::size_t>(block.element(e)[a])]);
+            for (const int a : order) put(part.number[as_size(block.element(e)[a])]);
         }
       });
   return connectivity + offsets + types;
@@ -185,7 +184,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   for (const Field& field : fields.all())
     if (field.place == mesh::FieldPlace::node) xml += add_field(data, part, field);
   xml += data.add<std::int64_t>({"node"}, part.nodes.size(), [&part](const auto& put) {
-    for (const Index node : part.nodes) put(part.mesh.input_node[static_cast<std::size_t>(node)]);
+    for (const Index node : part.nodes) put(part.mesh.input_node[as_size(node)]);
   });
   xml += "      </PointData>\n";
 
@@ -196,7 +195,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   // Numbers of the input, bodies and processes as columns of the cells.
   const int rank = processes::rank();
   xml += add_of_cells<std::int64_t>(data, part, "element", [](const ElementBlock& block, Index e) {
-    return block.input_element[static_cast<std::size_t>(e)];
+    return block.input_element[as_size(e)];
   });
   xml += add_of_cells<std::int32_t>(data, part, "body",
                                     [](const ElementBlock& block, Index) { return block.body; });
@@ -205,8 +204,8 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   // Cells of absent bodies are marked, so that viewers hide them.
   if (const linear::ActiveSet* active_set = fields.active())
     xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [&](const ElementBlock& block, Index e) {
-      const bool there = block.body < 0 || (active_set->body(block.body) &&
-                                            fields.there(block.input_element[static_cast<std::size_t>(e)]));
+      const bool there =
+          block.body < 0 || (active_set->body(block.body) && fields.there(block.input_element[as_size(e)]));
       return there ? std::uint8_t{0} : k_hidden_cell;
     });
   xml += "      </CellData>\n";

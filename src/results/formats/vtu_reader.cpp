@@ -13,6 +13,7 @@
 #include "input/keys.hpp"
 #include "mesh/files/vtu_arrays.hpp"
 #include "mesh/files/vtu_pieces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::results {
 
@@ -58,7 +59,7 @@ class Reader {
     }
     // A mesh of one body that this process has alone.
     mesh.dimension = dimension;
-    mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
+    mesh.n_owned_nodes = as_index(mesh.x.size());
     mesh.n_global_nodes = mesh.n_owned_nodes;
     mesh.bodies.push_back({"body"});
     // Each shape becomes a block, numbered from one.
@@ -118,10 +119,10 @@ class Reader {
       const std::size_t begin = c == 0 ? 0 : cells.offsets[c - 1];
       for (const std::vector<int>& part : parts->corners)
         for (const int corner : part) {
-          const std::size_t at = begin + static_cast<std::size_t>(corner);
+          const std::size_t at = begin + as_size(corner);
           if (at >= cells.offsets[c])
             file.fail(fmt::format("the file is damaged: cell {} has a corner that is no point", c));
-          cells_[parts->shape].push_back(static_cast<Index>(first) + cells.corners[at]);
+          cells_[parts->shape].push_back(as_index(first) + cells.corners[at]);
         }
     }
   }
@@ -151,7 +152,7 @@ ReadField read_vtu(const fs::path& file, const std::string& field, int body, dou
   // Points that no kept cell has (of other bodies) may hold anything; those of cells must be numbers.
   for (const mesh::ElementBlock& block : read.mesh.blocks)
     for (const Index node : block.nodes)
-      if (!std::isfinite(read.values[static_cast<std::size_t>(node)]))
+      if (!std::isfinite(read.values[as_size(node)]))
         throw InputError({file.string(), 0, 0}, fmt::format("the field '{}' is not finite somewhere", field));
   return read;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "numbers/index_casts.hpp"
 #include "results/output/csv.hpp"
 #include "results/output/output_error.hpp"
 
@@ -44,8 +45,8 @@ std::string Json::text() const {
 
 void Json::append(std::string& out, int depth, const std::string& key) const {
   // Lines of members, and the one of the closing bracket, are indented by two blanks a level.
-  const std::string line = "\n" + std::string(static_cast<std::size_t>(2 * (depth + 1)), ' ');
-  const std::string last = "\n" + std::string(static_cast<std::size_t>(2 * depth), ' ');
+  const std::string line = "\n" + std::string(as_size(2 * (depth + 1)), ' ');
+  const std::string last = "\n" + std::string(as_size(2 * depth), ' ');
   // By the kind of value; members of lists and objects go deeper by one level.
   if (const auto* flag = std::get_if<bool>(&value_)) {
     out += *flag ? "true" : "false";

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/index_casts.hpp"
 #include "results/output/output_file.hpp"
 #include "system/processes.hpp"
 
@@ -78,7 +79,7 @@ bool strip(std::string_view& name, std::string_view end) {
 bool strip_number(std::string_view& name, std::size_t least) {
   const auto last =
       std::find_if_not(name.rbegin(), name.rend(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  const auto digits = static_cast<std::size_t>(last - name.rbegin());
+  const auto digits = as_size(last - name.rbegin());
   if (digits < least) return false;
   name.remove_suffix(digits);
   return true;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::results {
@@ -62,9 +63,8 @@ std::vector<std::int32_t> order_in_space(const std::vector<Point>& x) {
       key[n] |= spread(static_cast<std::uint64_t>((x[n][i] - low[i]) / size * 2097151.0)) << i;
   std::vector<std::int32_t> order(x.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&key](std::int32_t a, std::int32_t b) {
-    return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&key](std::int32_t a, std::int32_t b) { return key[as_size(a)] < key[as_size(b)]; });
   return order;
 }
 
@@ -74,18 +74,18 @@ void sort_in_space(BodyMesh& body) {
   std::vector<std::int32_t> place(order.size());
   BodyMesh sorted = body;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto from = static_cast<std::size_t>(order[i]);
+    const auto from = as_size(order[i]);
     place[from] = static_cast<std::int32_t>(i);
     sorted.x[i] = body.x[from];
     sorted.input_node[i] = body.input_node[from];
   }
-  for (std::int32_t& node : sorted.triangles) node = place[static_cast<std::size_t>(node)];
-  const auto n = static_cast<std::size_t>(body.corners);
+  for (std::int32_t& node : sorted.triangles) node = place[as_size(node)];
+  const auto n = as_size(body.corners);
   std::vector<std::array<std::int32_t, 4>> cells(body.cells.size() / n);
   // Cells follow with their nodes renumbered.
   for (std::size_t c = 0; c < cells.size(); ++c) {
     cells[c] = {-1, -1, -1, -1};
-    for (std::size_t k = 0; k < n; ++k) cells[c][k] = place[static_cast<std::size_t>(body.cells[n * c + k])];
+    for (std::size_t k = 0; k < n; ++k) cells[c][k] = place[as_size(body.cells[n * c + k])];
     // Triangles of the plane keep their turn and begin with their least node; tetrahedra rise.
     if (n == 3)
       std::rotate(cells[c].begin(), std::min_element(cells[c].begin(), cells[c].begin() + 3),
@@ -110,7 +110,7 @@ void add_faces(Shape shape, const std::vector<std::int32_t>& nodes, std::vector<
   for (int f = 0; f < mesh::face_count(shape); ++f) {
     const std::span<const int> local = mesh::face_nodes(shape, f);
     Face face{{-1, -1, -1, -1}, {}, mesh::face_shape(shape)};
-    for (std::size_t k = 0; k < local.size(); ++k) face.nodes[k] = nodes[static_cast<std::size_t>(local[k])];
+    for (std::size_t k = 0; k < local.size(); ++k) face.nodes[k] = nodes[as_size(local[k])];
     std::copy_n(face.nodes.begin(), mesh::vertex_count(face.shape), face.key.begin());
     std::sort(face.key.begin(), face.key.end());
     faces.push_back(face);
@@ -125,8 +125,7 @@ void add_skin(std::vector<Face>& faces, BodyMesh& body) {
     while (end < faces.size() && faces[end].key == faces[i].key) ++end;
     if (end == i + 1)
       for (const auto& triangle : face_triangles(faces[i].shape))
-        for (const int corner : triangle)
-          body.triangles.push_back(faces[i].nodes[static_cast<std::size_t>(corner)]);
+        for (const int corner : triangle) body.triangles.push_back(faces[i].nodes[as_size(corner)]);
     i = end;
   }
 }
@@ -134,9 +133,7 @@ void add_skin(std::vector<Face>& faces, BodyMesh& body) {
 double measure(const std::vector<Point>& x, const std::vector<int>& simplex,
                const std::vector<std::int32_t>& nodes) {
   std::array<Point, 3> edge{};
-  const auto at = [&](std::size_t k) {
-    return x[static_cast<std::size_t>(nodes[static_cast<std::size_t>(simplex[k])])];
-  };
+  const auto at = [&](std::size_t k) { return x[as_size(nodes[as_size(simplex[k])])]; };
   for (std::size_t k = 1; k < simplex.size(); ++k)
     for (std::size_t i = 0; i < 3; ++i) edge[k - 1][i] = at(k)[i] - at(0)[i];
   const auto& [a, b, c] = edge;
@@ -158,9 +155,9 @@ void for_each_part(const FieldFile::Piece& piece, const mesh::CellTable& table, 
     for (const std::vector<int>& part : found->second->corners) {
       std::vector<std::int32_t> points;
       for (const int corner : part) {
-        if (begin + static_cast<std::size_t>(corner) >= table.offsets[c])
+        if (begin + as_size(corner) >= table.offsets[c])
           piece.file->fail(fmt::format("the file is damaged: cell {} has too few corners", c));
-        points.push_back(table.corners[begin + static_cast<std::size_t>(corner)]);
+        points.push_back(table.corners[begin + as_size(corner)]);
       }
       use(c, found->second->shape, points);
     }
@@ -238,7 +235,7 @@ Bodies::Bodies(const FieldFile& file) {
                     const std::size_t b = index.at(r.body[c]);
                     BodyMesh& body = bodies_[b];
                     for (std::int32_t& node : nodes) {
-                      const auto point = static_cast<std::size_t>(node);
+                      const auto point = as_size(node);
                       const auto input = mesh::whole_number(r.node[point]);
                       const auto [found, is_new] =
                           local_[b].try_emplace(input, static_cast<std::int32_t>(body.x.size()));
@@ -249,8 +246,7 @@ Bodies::Bodies(const FieldFile& file) {
                       node = found->second;
                     }
                     for (const std::vector<int>& simplex : simplices(shape))
-                      for (const int corner : simplex)
-                        body.cells.push_back(nodes[static_cast<std::size_t>(corner)]);
+                      for (const int corner : simplex) body.cells.push_back(nodes[as_size(corner)]);
                     if (dimension_ == 3) add_faces(shape, nodes, faces[b]);
                   });
   }
@@ -289,10 +285,10 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
     PieceMap::Cell& cell = map.cells[c];
     cell.body = mesh::dimension(shape) == dimension_ ? body_index(body[c]) : -1;
     if (cell.body < 0) return;
-    const auto b = static_cast<std::size_t>(cell.body);
+    const auto b = as_size(cell.body);
     for (std::int32_t& at : nodes) {
       pairs.emplace_back(cell.body, at);
-      const auto found = local_[b].find(mesh::whole_number(map.node[static_cast<std::size_t>(at)]));
+      const auto found = local_[b].find(mesh::whole_number(map.node[as_size(at)]));
       if (found == local_[b].end())
         piece.file->fail("the mesh of the file is not that of the first field file of the run");
       at = found->second;
@@ -305,15 +301,13 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
   for (PieceMap::Cell& cell : map.cells)
     for (const std::int32_t n : cell.nodes)
       for (std::size_t i = 0; i < 3; ++i)
-        cell.centre[i] += bodies_[static_cast<std::size_t>(cell.body)].x[static_cast<std::size_t>(n)][i] /
-                          static_cast<double>(cell.nodes.size());
+        cell.centre[i] +=
+            bodies_[as_size(cell.body)].x[as_size(n)][i] / static_cast<double>(cell.nodes.size());
   // A point that several bodies share is a target for each of them.
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   for (const auto& [b, point] : pairs)
-    map.targets.push_back({point, b,
-                           local_[static_cast<std::size_t>(b)].at(
-                               mesh::whole_number(map.node[static_cast<std::size_t>(point)]))});
+    map.targets.push_back({point, b, local_[as_size(b)].at(mesh::whole_number(map.node[as_size(point)]))});
   return map;
 }
 

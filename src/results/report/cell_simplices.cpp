@@ -1,6 +1,7 @@
 /// Cuts cells and faces into tetrahedra and triangles.
 #include <algorithm>
 
+#include "numbers/index_casts.hpp"
 #include "results/report/body_mesh.hpp"
 
 namespace solidus::results {
@@ -46,7 +47,7 @@ std::vector<std::vector<int>> simplices(Shape shape) {
         if (std::find(nodes.begin(), nodes.end(), 0) != nodes.end()) continue;
         for (const auto& t : face_triangles(mesh::face_shape(shape))) {
           std::vector<int>& simplex = out.emplace_back(std::vector<int>{0});
-          for (const int corner : t) simplex.push_back(nodes[static_cast<std::size_t>(corner)]);
+          for (const int corner : t) simplex.push_back(nodes[as_size(corner)]);
         }
       }
       return out;

@@ -12,6 +12,7 @@
 
 #include "coupling/all_fields.hpp"
 #include "mechanics/quantities.hpp"
+#include "numbers/index_casts.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::results {
@@ -86,8 +87,7 @@ class Reading {
       for (std::size_t c = 0; c < piece.n_cells; ++c) {
         const PieceMap::Cell& cell = maps[p].cells[c];
         if (ghost[c] != 0 || cell.body < 0) continue;
-        for (const std::int32_t node : cell.nodes)
-          there[static_cast<std::size_t>(cell.body)][static_cast<std::size_t>(node)] = true;
+        for (const std::int32_t node : cell.nodes) there[as_size(cell.body)][as_size(node)] = true;
       }
     }
     return there;
@@ -126,7 +126,7 @@ class Reading {
     // Components of a vector come one after the other.
     if (kept_tree_ == piece.tree && kept_name_ == column.field) return kept_;
     const ptree* found = mesh::find_array(*piece.tree, section, column.field);
-    const auto n = static_cast<std::size_t>(column.n_components);
+    const auto n = as_size(column.n_components);
     if (found != nullptr && found->get<std::size_t>("<xmlattr>.NumberOfComponents", 1) != n)
       piece.file->fail(fmt::format(
           "the field '{}' has another number of components than at the end of the run", column.field));
@@ -145,10 +145,10 @@ class Reading {
     // not-a-number.
     const std::vector<double>& all = array(piece, column);
     if (all.empty()) return;
-    const auto n = static_cast<std::size_t>(column.n_components);
+    const auto n = as_size(column.n_components);
     const auto at = [&](std::size_t i) {
-      const double value = column.principal ? largest_principal(&all[n * i])
-                                            : all[n * i + static_cast<std::size_t>(column.index)];
+      const double value =
+          column.principal ? largest_principal(&all[n * i]) : all[n * i + as_size(column.index)];
       const bool nothing = (column.none_at_zero && value == 0) || (column.none_below_zero && value < 0);
       return nothing ? k_none : value;
     };
@@ -156,9 +156,9 @@ class Reading {
     // surface.
     if (!column.of_elements) {
       for (const PieceMap::Target& target : map.targets) {
-        const auto b = static_cast<std::size_t>(target.body), node = static_cast<std::size_t>(target.node);
+        const auto b = as_size(target.body), node = as_size(target.node);
         const bool silent = column.of_contact && !contact_nodes_.contains(bodies_[b].input_node[node]);
-        values[b][node] = silent ? k_none : at(static_cast<std::size_t>(target.point));
+        values[b][node] = silent ? k_none : at(as_size(target.point));
       }
       return;
     }
@@ -168,14 +168,14 @@ class Reading {
       const PieceMap::Cell& cell = map.cells[c];
       const double value = cell.body < 0 ? k_none : at(c);
       if (!std::isfinite(value)) continue;
-      const auto b = static_cast<std::size_t>(cell.body);
+      const auto b = as_size(cell.body);
       Extremes& e = extremes[b];
       if (!e.there || value < e.low) e.low = value, e.low_at = cell.centre;
       if (!e.there || value > e.high) e.high = value, e.high_at = cell.centre;
       e.there = true;
       for (const std::int32_t node : cell.nodes) {
-        values[b][static_cast<std::size_t>(node)] += cell.weight * value;
-        weight[b][static_cast<std::size_t>(node)] += cell.weight;
+        values[b][as_size(node)] += cell.weight * value;
+        weight[b][as_size(node)] += cell.weight;
       }
     }
   }

@@ -15,6 +15,7 @@
 #include "coupling/all_fields.hpp"
 #include "input/document.hpp"
 #include "mechanics/quantities.hpp"
+#include "numbers/index_casts.hpp"
 #include "results/formats/pvd.hpp"
 #include "results/output/output_error.hpp"
 #include "results/output/quantity_json.hpp"
@@ -178,13 +179,13 @@ ContactParts contact_parts(const std::vector<fs::path>& files) {
 Json body_data(const BodyMesh& body, const std::vector<BodyMaterial>& names, const ReportOptions& options,
                Blocks& blocks, std::vector<std::string>& notes) {
   // Names and materials come from the summary, by the body's number.
-  const auto number = static_cast<std::size_t>(body.number);
+  const auto number = as_size(body.number);
   const std::string name = number < names.size() ? names[number].body : fmt::format("body {}", number);
   Json out;
   out.add("name", name).add("nodes", body.x.size());
   if (number < names.size()) out.add("material", names[number].material);
   out.add("points", points(body.x, blocks)).add("numbers", blocks.add(rising_bytes(body.input_node)));
-  const std::size_t n_cells = body.cells.size() / static_cast<std::size_t>(body.corners);
+  const std::size_t n_cells = body.cells.size() / as_size(body.corners);
   out.add("corners", body.corners).add("simplices", n_cells);
   if (!body.triangles.empty()) {
     out.add("triangles", body.triangles.size() / 3).add("skin", blocks.add(rising_bytes(body.triangles)));
@@ -195,7 +196,7 @@ Json body_data(const BodyMesh& body, const std::vector<BodyMaterial>& names, con
     return out;
   }
   // Corner by corner: the first ones rise, each other one lies near the corner before it.
-  const auto n = static_cast<std::size_t>(body.corners);
+  const auto n = as_size(body.corners);
   std::vector<std::int32_t> first, others;
   for (std::size_t c = 0; c < n_cells; ++c) first.push_back(body.cells[n * c]);
   for (std::size_t k = 1; k < n; ++k)

@@ -1,5 +1,7 @@
 #include "results/report/viewer.hpp"
 
+#include "numbers/index_casts.hpp"
+
 // The assembler takes the file in as it is: no array of a million numbers for the compiler.
 asm(".section .rodata\n"
     ".global solidus_viewer_begin\n"
@@ -16,7 +18,7 @@ extern "C" const char solidus_viewer_end[];    // NOLINT
 namespace solidus::results {
 
 std::string_view viewer() {
-  return {solidus_viewer_begin, static_cast<std::size_t>(solidus_viewer_end - solidus_viewer_begin)};
+  return {solidus_viewer_begin, as_size(solidus_viewer_end - solidus_viewer_begin)};
 }
 
 }  // namespace solidus::results

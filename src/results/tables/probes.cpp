@@ -11,6 +11,7 @@
 
 #include "mesh/block_geometry.hpp"
 #include "mesh/locate.hpp"
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/output/output_error.hpp"
 #include "system/processes.hpp"
@@ -27,7 +28,7 @@ constexpr double k_slack = 0.05;
 
 std::size_t cell_offset(const Mesh& mesh, std::size_t block) {
   std::size_t offset = 0;
-  for (std::size_t b = 0; b < block; ++b) offset += static_cast<std::size_t>(mesh.blocks[b].size());
+  for (std::size_t b = 0; b < block; ++b) offset += as_size(mesh.blocks[b].size());
   return offset;
 }
 
@@ -51,7 +52,7 @@ std::string group_names(const Mesh& mesh) {
 double element_size(const Mesh& mesh, const mesh::ElementBlock& block, Index e) {
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto at = [&](int a) { return mesh.x[static_cast<std::size_t>(block.element(e)[a])][i]; };
+    const auto at = [&](int a) { return mesh.x[as_size(block.element(e)[a])][i]; };
     double low = at(0), high = at(0);
     for (int a = 1; a < mesh::node_count(block.shape); ++a) {
       low = std::min(low, at(a));
@@ -73,7 +74,7 @@ std::vector<std::pair<std::size_t, double>> cell_weights(const Mesh& mesh, Analy
     for (Index e = 0; e < block.n_counted; ++e) {
       double volume = 0;
       for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(e / k_lanes, q)[e % k_lanes];
-      weights.emplace_back(cell_offset(mesh, b) + static_cast<std::size_t>(e), volume);
+      weights.emplace_back(cell_offset(mesh, b) + as_size(e), volume);
       all += volume;
     }
   }
@@ -93,9 +94,9 @@ std::map<Index, std::vector<ElementAt>> elements_at(const Mesh& mesh, const std:
   for (const Index node : group) at[node];
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const mesh::ElementBlock& block = mesh.blocks[b];
-    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    const auto n = as_size(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e) {
-      const ElementAt here{cell_offset(mesh, b) + static_cast<std::size_t>(e), {block.element(e), n}};
+      const ElementAt here{cell_offset(mesh, b) + as_size(e), {block.element(e), n}};
       for (const Index node : here.nodes)
         if (const auto found = at.find(node); found != at.end()) found->second.push_back(here);
     }
@@ -113,7 +114,7 @@ std::vector<std::pair<std::size_t, double>> face_weights(const Mesh& mesh, Analy
     const auto around = elements_at(mesh, surface->second.nodes);
     for (const mesh::ElementBlock& faces : surface->second.faces) {
       const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 4));
-      const auto n_points = static_cast<std::size_t>(g.n_points), n = static_cast<std::size_t>(g.n_nodes);
+      const auto n_points = as_size(g.n_points), n = as_size(g.n_nodes);
       for (Index f = 0; f < faces.n_counted; ++f) {
         const std::span<const Index> nodes(faces.element(f), n);
         const std::vector<ElementAt>& candidates = around.at(nodes[0]);
@@ -124,8 +125,7 @@ std::vector<std::pair<std::size_t, double>> face_weights(const Mesh& mesh, Analy
         });
         if (owner == candidates.end()) continue;
         double area = 0;
-        for (std::size_t q = 0; q < n_points; ++q)
-          area += g.weight[static_cast<std::size_t>(f) * n_points + q];
+        for (std::size_t q = 0; q < n_points; ++q) area += g.weight[as_size(f) * n_points + q];
         weights.emplace_back(owner->cell, area);
         all += area;
       }
@@ -154,7 +154,7 @@ std::vector<std::pair<std::size_t, double>> weights_around(const Mesh& mesh,
 
 /// @param values  of the field
 double component_of(const Field& field, std::span<const double> values, std::size_t entity, int component) {
-  const auto nc = static_cast<std::size_t>(field.components);
+  const auto nc = as_size(field.components);
   const double* v = values.data() + entity * nc;
   if (component != k_magnitude) return v[component];
   double square = 0;
@@ -230,12 +230,12 @@ Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, c
   sample.unit = field.unit;
   sample.shown = conversion_to(probe.column, field.unit, units::Temperature::absolute, probe.where);
   const mesh::LocatedPoint place = mesh::locate(mesh, probe.at, probe.body);
-  const auto block = static_cast<std::size_t>(std::max(place.block, Index{0}));
+  const auto block = as_size(std::max(place.block, Index{0}));
   const double size =
       parallel::global_max(place.here ? element_size(mesh, mesh.blocks[block], place.element) : 0.0);
   if (!(place.distance <= k_slack * size)) {
     const std::string body =
-        probe.body < 0 ? "the mesh" : "body '" + mesh.bodies[static_cast<std::size_t>(probe.body)].name + "'";
+        probe.body < 0 ? "the mesh" : "body '" + mesh.bodies[as_size(probe.body)].name + "'";
     throw InputError(probe.where,
                      fmt::format("probe '{}': the point ({:g}, {:g}, {:g}) m lies outside {}",
                                  probe.column.name, probe.at[0], probe.at[1], probe.at[2], body),
@@ -244,10 +244,10 @@ Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, c
   const int here = place.here && place.block >= 0 ? mesh.blocks[block].body : -1;
   sample.body = static_cast<int>(parallel::global_max(static_cast<double>(here)));
   if (place.here && field.place == mesh::FieldPlace::cell)
-    sample.weights = {{cell_offset(mesh, block) + static_cast<std::size_t>(place.element), 1.0}};
+    sample.weights = {{cell_offset(mesh, block) + as_size(place.element), 1.0}};
   else
     for (std::size_t a = 0; a < place.nodes.size(); ++a)
-      sample.weights.emplace_back(static_cast<std::size_t>(place.nodes[a]), place.weights[a]);
+      sample.weights.emplace_back(as_size(place.nodes[a]), place.weights[a]);
   return sample;
 }
 
@@ -281,7 +281,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     sample.reduce = probe.statistic == Statistic::minimum ? Reduce::minimum : Reduce::maximum;
     if (field.place == mesh::FieldPlace::node) {
       for (const Index node : nodes->second)
-        if (node < mesh.n_owned_nodes) sample.weights.emplace_back(static_cast<std::size_t>(node), 1.0);
+        if (node < mesh.n_owned_nodes) sample.weights.emplace_back(as_size(node), 1.0);
     } else {
       sample.weights = of_elements();
     }
@@ -295,7 +295,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     const mesh::NodalFunctional mean = mesh::group_mean(mesh, probe.group, kind);
     sample.weights.reserve(mean.nodes.size());
     for (std::size_t a = 0; a < mean.nodes.size(); ++a)
-      sample.weights.emplace_back(static_cast<std::size_t>(mean.nodes[a]), mean.weights[a]);
+      sample.weights.emplace_back(as_size(mean.nodes[a]), mean.weights[a]);
   }
   // An integral is the mean times the measure of the group, with the unit of both.
   if (probe.statistic == Statistic::integral) {
@@ -327,7 +327,7 @@ Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
                        fmt::format("probe '{}': there is no probe '{}' before it", probe.column.name, name),
                        "probes so far: " + known);
     }
-    const auto index = static_cast<std::size_t>(found - columns_.begin());
+    const auto index = as_size(found - columns_.begin());
     const std::string& unit = samples_[index].unit;
     if (!sample.unit.empty() && !units::compatible(unit, sample.unit))
       throw InputError(probe.where, fmt::format("probe '{}': '{}' measures something else than '{}'",
@@ -379,8 +379,8 @@ void Probes::take(const Sample& sample, const Field& field, std::span<const doub
     // Written so that a NaN stays and is found in the end, which std::max would lose.
     const auto raise = [&](double& peak) { peak = sign * value <= peak ? peak : sign * value; };
     raise(to.peak_of_all);
-    const bool there = active == nullptr || field.place == mesh::FieldPlace::cell ||
-                       active->node(static_cast<Index>(entity));
+    const bool there =
+        active == nullptr || field.place == mesh::FieldPlace::cell || active->node(as_index(entity));
     if (there) raise(to.peak);
   }
 }

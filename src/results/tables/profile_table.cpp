@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "results/output/output_error.hpp"
 #include "results/output/output_file.hpp"
@@ -27,8 +28,8 @@ units::Conversion shown_in(const std::string& unit, const std::string& si, const
 
 /// @param values  of the field
 double component_at(const Field& field, std::span<const double> values, Index node, int component) {
-  const auto n = static_cast<std::size_t>(field.components);
-  const double* v = values.data() + static_cast<std::size_t>(node) * n;
+  const auto n = as_size(field.components);
+  const double* v = values.data() + as_size(node) * n;
   if (component != k_magnitude) return v[component];
   return std::sqrt(std::inner_product(v, v + n, v, 0.0));
 }
@@ -82,8 +83,7 @@ std::vector<double> ProfileTable::gather(const FieldSet& fields) const {
     values.push_back(of_column[c]->read(storage[c]));
   }
   for (const Index node : nodes_) {
-    for (int i = 0; i < dimension_; ++i)
-      mine.push_back(length_(mesh_.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)]));
+    for (int i = 0; i < dimension_; ++i) mine.push_back(length_(mesh_.x[as_size(node)][as_size(i)]));
     for (std::size_t c = 0; c < shown_.size(); ++c)
       mine.push_back(shown_[c](component_at(*of_column[c], values[c], node, profile_.columns[c].component)));
   }
