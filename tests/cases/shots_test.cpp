@@ -350,8 +350,16 @@ TEST(Shots, ThePeriodicStateIsFoundWithADeformingDie) {
   ASSERT_TRUE(k_here.run("coupled_plain", coupled, periodic("0.2 K", "repetition", k_coupled)).finished);
   ASSERT_TRUE(k_here.run("coupled_anderson", coupled, periodic("0.2 K", "anderson", k_coupled)).finished);
   const Columns plain = shots("coupled_plain"), found = shots("coupled_anderson");
-  EXPECT_LE(3 * found.at("shot[1]").size(), plain.at("shot[1]").size());
-  EXPECT_NEAR(found.at("die_at_end_mean[degC]").back(), plain.at("die_at_end_mean[degC]").back(), 2);
+  const std::size_t n = plain.at("shot[1]").size();
+  EXPECT_LE(3 * found.at("shot[1]").size(), n);
+  // Repetition falls short of its limit, which follows from its last three shots (Aitken's process).
+  for (const char* column : {"die_at_end_mean[degC]", "die_at_end_min[degC]", "die_at_end_max[degC]"}) {
+    const std::vector<double>& t = plain.at(column);
+    const double last = t[n - 1] - t[n - 2], before = t[n - 2] - t[n - 3];
+    const double limit = t[n - 1] + last * last / (before - last);
+    EXPECT_GT(std::abs(limit - t[n - 1]), 0.2) << column;
+    EXPECT_NEAR(found.at(column).back(), limit, 0.5) << column;
+  }
   k_here.expect_exact_restart("coupled_search", coupled, 3 * 18 + 7,
                               periodic("0.2 K", "anderson", k_coupled));
 }
