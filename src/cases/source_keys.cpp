@@ -114,7 +114,7 @@ Section<DepositionSpec> deposition_keys() {
   using D = DepositionSpec;
   Section<D> s("deposition",
                "A body that is deposited element by element, at its initial temperature: each element takes "
-               "part from its birth on. In heat alone so far (physics = \"heat\").");
+               "part from its birth on, and is then free of stress where it comes to lie.");
   s.key("name", &D::name).doc("A name of your choice.");
   s.key("body", &D::body).doc("Group of the mesh: the body that grows.");
   s.choice("kind", &D::kind,

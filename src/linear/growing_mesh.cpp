@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linear/birth_groups.hpp"
 #include "numbers/index_casts.hpp"
-#include "parallel/parallel.hpp"
 
 namespace solidus::linear {
 
@@ -49,43 +49,10 @@ GrowingMesh::GrowingMesh(const mesh::Mesh& whole, std::vector<Births> births, st
       births_of_.emplace_back(whole_.blocks[b].input_element[e], births_[b][e]);
   std::sort(births_of_.begin(), births_of_.end());
   find_faces();
-  fill_blocks();
-  fill_surfaces();
 }
 
-/// The different times are found one after the other, since no process knows all of them.
 void GrowingMesh::round_times(double interval) {
-  std::vector<double> own;
-  for (const Births& of_block : births_)
-    for (const double t : of_block)
-      if (std::isfinite(t)) own.push_back(t);
-  std::sort(own.begin(), own.end());
-  const double first = parallel::global_min(own.empty() ? HUGE_VAL : own.front()),
-               last = parallel::global_max(own.empty() ? -HUGE_VAL : own.back());
-  if (!(last >= first)) return;
-  const double same = 1e-9 * std::max(last - first, 1e-9);
-  const auto collect = [&] {
-    times_.clear();
-    for (double time = -HUGE_VAL; std::ssize(times_) <= k_most_times;) {
-      const auto next = std::upper_bound(own.begin(), own.end(), time + same);
-      time = parallel::global_min(next == own.end() ? HUGE_VAL : *next);
-      if (!std::isfinite(time)) break;
-      times_.push_back(time);
-    }
-  };
-  if (interval <= 0) collect();
-  if (std::ssize(times_) > k_most_times) interval = (last - first) / k_most_times;
-  // Each birth moves to the time at which its group is born.
-  const auto rounded = [&](double t) {
-    return interval > 0 ? first + interval * std::ceil((t - first) / interval - 1e-9)
-                        : *(std::upper_bound(times_.begin(), times_.end(), t + same) - 1);
-  };
-  for (Births& of_block : births_)
-    for (double& t : of_block)
-      if (std::isfinite(t)) t = rounded(t);
-  if (interval <= 0) return;
-  for (double& t : own) t = rounded(t);
-  collect();
+  times_ = group_times(births_, interval);
 }
 
 void GrowingMesh::find_faces() {
@@ -129,7 +96,8 @@ int GrowingMesh::present_sides(const Face& face) const {
 
 bool GrowingMesh::advance(double time) {
   const auto changes = [&](double t) { return t > time_ && t <= time; };
-  const bool any = std::any_of(times_.begin(), times_.end(), changes);
+  const bool first = time_ == -std::numeric_limits<double>::infinity();
+  const bool any = first || std::any_of(times_.begin(), times_.end(), changes);
   time_ = std::max(time, time_);
   if (!any) return false;
   fill_blocks();

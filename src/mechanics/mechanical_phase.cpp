@@ -10,6 +10,7 @@
 #include "mechanics/elements/absent_block.hpp"
 #include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/elements/mixed_kernel.hpp"
+#include "mechanics/growing_bodies.hpp"
 #include "mechanics/loads/loads.hpp"
 #include "mechanics/loads/melt_stiffness.hpp"
 #include "mechanics/solver/nodal_pressure.hpp"
@@ -185,21 +186,24 @@ void MechanicalPhase::create_pressure() {
 
 void MechanicalPhase::set_conditions(MechanicalConditions conditions, std::span<const double> start) {
   // New conditions may change which bodies are active and which unknowns are tied: only then the matrix has
-  // to be made again.
+  // to be made again. Of bodies that grow elements may have come.
+  const bool other_elements = follow_elements(bodies_);
   const linear::ActiveSet active(bodies_.mesh, conditions.absent_bodies);
   auto loads = std::make_unique<Loads>(bodies_.mesh, bodies_.kind, std::move(conditions), active, start,
                                        densities(bodies_.materials));
   const bool same_matrix =
-      active == bodies_.active &&
+      !other_elements && active == bodies_.active &&
       !parallel::any_process(loads->constraint_groups() != bodies_.loads->constraint_groups());
   // Bodies that have gone take their weight along.
-  if (active != bodies_.active) {
+  if (other_elements || active != bodies_.active) {
     remove_bodies(active);
     find_weight(loads->conditions().gravity);
   }
   loads->add_constant(bodies_.weight);
-  bodies_.melt =
-      melt_moduli(bodies_.mesh, bodies_.kind, bodies_.materials, bodies_.active, loads->conditions());
+  // The melt of a body that grows has the modulus of the whole body.
+  if (!grows(bodies_))
+    bodies_.melt =
+        melt_moduli(bodies_.mesh, bodies_.kind, bodies_.materials, bodies_.active, loads->conditions());
   bodies_.loads = std::move(loads);
   create_pressure();
   // With the same matrix fixed rows change, and the solver forgets what it knew.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "cases/case_materials.hpp"
@@ -31,20 +32,27 @@ namespace {
 
 /// Temperatures at which nodes are free of thermal strain, and which they have in mechanics alone: every body
 /// at its temperature. A node of several bodies takes that of one that deforms, of these the hottest: the
-/// casting's.
+/// casting's. Where bodies grow, what is there at the start comes before what comes later.
 std::vector<double> nodal_temperature(const cases::CaseSpec& spec, const InitialTemperatures& start,
-                                      const mesh::Mesh& mesh) {
-  using Rank = std::pair<bool, double>;
-  std::vector<Rank> best(mesh.x.size(), {false, -1.0});
+                                      const Assembly& a) {
+  const mesh::Mesh& mesh = a.mesh;
+  using Rank = std::tuple<bool, bool, double>;
+  std::vector<Rank> best(mesh.x.size(), {false, false, -1.0});
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const bool deforms = !cases::only_conducts(spec.bodies[as_size(block.body)]);
-    for (const Index i : block.nodes) {
-      Rank& here = best[as_size(i)];
-      here = std::max(here, Rank(deforms, start.temperature(i, block.body)));
+    const int n = mesh::node_count(block.shape);
+    for (Index e = 0; e < block.size(); ++e) {
+      const bool there = !a.growth || a.growth->there(block.input_element[as_size(e)]);
+      for (int k = 0; k < n; ++k) {
+        const Index i = block.element(e)[k];
+        Rank& here = best[as_size(i)];
+        here = std::max(here, Rank(there, deforms, start.temperature(i, block.body)));
+      }
     }
   }
   std::vector<double> temperature(mesh.x.size());
-  for (std::size_t i = 0; i < best.size(); ++i) temperature[i] = best[i].second;  // ghosts may have no body
+  for (std::size_t i = 0; i < best.size(); ++i)
+    temperature[i] = std::get<double>(best[i]);         // ghosts may have no body
   parallel::GhostExchange(mesh).update(temperature, 1);  // an owner sees every body at its node
   return temperature;
 }
@@ -122,11 +130,12 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
       absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins
   // The phase is made of all bodies that conditions of the first stage leave; contacts need to know where
   // melt touches them.
-  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
+  const mesh::Mesh& mesh = a.growth ? a.growth->present() : a.mesh;  // as yet with all that will come
+  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(mesh, spec.analysis.kind, a.materials,
                                                              initial_temperature, std::move(conditions),
                                                              std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
-  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->bodies().active);
+  a.coherency = std::make_unique<coupling::Coherency>(mesh, a.materials, a.mechanics->bodies().active);
   if (!a.coherency->melts()) return;
   a.phases.coherency = a.coherency.get();
   std::vector<std::string> in_contact;
@@ -157,7 +166,7 @@ void build_heat(const cases::CaseSpec& spec, const InitialTemperatures& start, A
   a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
   // Nodes at which nothing has grown yet show what will come.
   if (a.growth) {
-    const std::vector<double> to_come = nodal_temperature(spec, start, a.mesh);
+    const std::vector<double> to_come = nodal_temperature(spec, start, a);
     for (Index i = 0; i < a.mesh.n_nodes(); ++i)
       if (!a.heat->active().node(i)) a.initial.heat.temperature[as_size(i)] = to_come[as_size(i)];
   }
@@ -314,21 +323,22 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
   std::vector<double> highest;
   for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
   cases::check_melts(spec, a.materials, highest);
-  build_contacts(spec, a);
-  if (!spec.depositions.empty()) {
+  if (!spec.depositions.empty()) {  // divides the blocks of the mesh, to which nothing refers yet
     check_contacts_of_growth(spec, a.mesh);
     a.growth = std::make_unique<Deposition>(spec, a);
     a.phases.growth = a.growth.get();
   }
+  build_contacts(spec, a);
   // Mechanics is given the initial temperatures even if heat is not solved for.
   if (spec.has_mechanics()) {
-    a.phases.temperature = nodal_temperature(spec, start, a.mesh);
+    a.phases.temperature = nodal_temperature(spec, start, a);
     build_mechanics(spec, a.phases.temperature, a);
     if (spec.exchanges_heat()) {
       a.structural = std::make_unique<mechanics::StructuralHeat>(
           *a.mechanics, structural_form(spec), spec.heat.integration == heat::HeatIntegration::closed);
       a.phases.structural = a.structural.get();
     }
+    if (a.growth) a.growth->grow(0, nullptr);  // from here on without what comes later
     a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points
   }
   if (spec.has_heat()) build_heat(spec, start, a);

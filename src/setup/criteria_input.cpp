@@ -194,14 +194,15 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
   // case.
   const std::vector<char> followed = followed_bodies(spec, materials, start);
   if (spec.feeding.moves_heat) check_one_alloy(spec, followed);
-  // What a body that grows is fed from changes with it, which feeding and gas do not follow.
+  // What a body that grows is fed from changes with it, which feeding and gas do not follow; nor do the
+  // criteria of strain follow elements that come.
   const bool whole = spec.depositions.empty();
   const criteria::CriterionContext context{
       .mesh = mesh,
       .kind = spec.analysis.kind,
       .materials = materials,
       .heat = phases.heat,
-      .mechanics = phases.mechanics != nullptr,
+      .mechanics = phases.mechanics != nullptr && whole,
       .temperature = phases.heat != nullptr ? std::vector<double>{} : phases.temperature,
       .followed = followed,
       .evaluation = spec.criteria.evaluation,

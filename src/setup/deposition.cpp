@@ -7,14 +7,23 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
+#include "cases/roles.hpp"
+#include "coupling/phases.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
+#include "linear/birth_groups.hpp"
+#include "material/external_law.hpp"
+#include "mechanics/elements/simplices.hpp"
+#include "mechanics/growing_bodies.hpp"
 #include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/assembly.hpp"
 #include "setup/criteria_input.hpp"
 #include "setup/deposition_checks.hpp"
 #include "setup/heat_input.hpp"
+#include "setup/mechanics_input.hpp"
 #include "setup/place_input.hpp"
 #include "setup/section_names.hpp"
 #include "setup/source_input.hpp"
@@ -205,12 +214,39 @@ double interval_of(const cases::CaseSpec& spec) {
 
 }  // namespace
 
+namespace {
+
+/// What bodies that grow cannot do together with stress.
+void check_mechanics(const cases::CaseSpec& spec, const cases::DepositionSpec& d) {
+  if (spec.simultaneous())
+    refuse(d, "grows, which the simultaneous scheme cannot yet",
+           "coupling.scheme = \"isentropic\", \"isothermal\", \"double_pass\" or \"block_iterative\"");
+  if (spec.dynamics) refuse(d, "grows, which inertia does not know yet", "no [dynamics]");
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
+    if (c.relative)
+      throw InputError(c.where,
+                       fmt::format("the condition '{}' counts from where nodes are when its stage begins, which "
+                                   "nodes that come with '{}' do not know",
+                                   c.name, d.name),
+                       "relative = false");
+  for (const cases::BodySpec& body : spec.bodies)
+    if (body.initial_stress)
+      throw InputError(body.where,
+                       fmt::format("the body '{}' starts with a stress while '{}' grows: not possible yet", body.name,
+                                   d.name),
+                       "no [body.initial_stress]");
+}
+
+}  // namespace
+
 void check_depositions(const cases::CaseSpec& spec) {
   check_names(spec.depositions, "[[deposition]]");
   std::set<std::string> bodies;
   for (const cases::DepositionSpec& d : spec.depositions) {
-    if (spec.analysis.physics != cases::Physics::heat)
-      refuse(d, "grows, which is there in heat alone so far", "physics = \"heat\" in [analysis]");
+    if (!spec.has_heat())
+      refuse(d, "grows, which brings heat that mechanics alone does not follow",
+             "physics = \"thermomechanical\" or \"heat\" in [analysis]");
+    if (spec.has_mechanics()) check_mechanics(spec, d);
     if (spec.time.steady) refuse(d, "grows, and a steady analysis has no time for it", "steady = false");
     if (spec.heat.integration != heat::HeatIntegration::closed)
       refuse(d, "grows, which the open rule cannot yet", "heat.integration = \"closed\"");
@@ -246,32 +282,82 @@ void check_contacts_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mes
     }
 }
 
+namespace {
+
+/// Checks that the elements of bodies that grow can have a stress.
+void check_stress_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
+                            const std::vector<material::Material>& materials) {
+  for (const cases::DepositionSpec& d : spec.depositions)
+    for (const mesh::ElementBlock& block : mesh.blocks) {
+      const auto body = as_size(block.body);
+      if (mesh.bodies[body].name != d.body || cases::only_conducts(spec.bodies[body])) continue;
+      if (mechanics::is_mixed(block, materials[body], spec.mechanics.simplices))
+        refuse(d, "grows in mixed triangles or tetrahedra, whose pressure old and new metal would share",
+               "quadrilaterals or hexahedra, elements of second order, or mechanics.simplices = \"displacement\"");
+      if (material::external_law(materials[body]) != nullptr)
+        refuse(d, fmt::format("grows with the law of '{}', which is not the program's", materials[body].name),
+               "a material of the built-in laws");
+    }
+}
+
+/// The births of all blocks. Where bodies deform the blocks of the mesh are divided, so that each comes whole:
+/// nothing may refer to them yet.
+std::vector<linear::GrowingMesh::Births> births_of_blocks(const cases::CaseSpec& spec, Assembly& a) {
+  std::vector<linear::GrowingMesh::Births> births = all_births(spec, a.mesh);
+  if (!spec.has_mechanics()) return births;
+  check_stress_of_growth(spec, a.mesh, a.materials);
+  linear::divide_by_birth(a.mesh, births, interval_of(spec));
+  return births;
+}
+
+}  // namespace
+
 Deposition::Deposition(const cases::CaseSpec& spec, Assembly& a)
     : spec_(spec),
       a_(a),
-      mesh_(a.mesh, all_births(spec, a.mesh), bare_surfaces(spec, a.mesh), interval_of(spec)),
+      mesh_(a.mesh, births_of_blocks(spec, a), bare_surfaces(spec, a.mesh), interval_of(spec)),
       grows_(a.mesh.bodies.size(), 0) {
   for (const cases::DepositionSpec& d : spec.depositions)
     for (std::size_t b = 0; b < grows_.size(); ++b)
       if (a.mesh.bodies[b].name == d.body) grows_[b] = 1;
-  mesh_.advance(0);
+  // The mechanical phase is made on the whole mesh; build() then calls grow(0).
+  if (!spec.has_mechanics()) mesh_.advance(0);
 }
 
 bool Deposition::due(double time) const {
   return std::ranges::any_of(mesh_.times(), [&](double t) { return t > mesh_.time() && t <= time; });
 }
 
+namespace {
+
+/// Stress begins in the new elements at the temperatures that their nodes have now.
+void grow_mechanics(const cases::CaseSpec& spec, const cases::StageRun* stage, double time,
+                    coupling::State* state, Assembly& a) {
+  if (state == nullptr)
+    return mechanics::grow(*a.mechanics, mechanical_conditions(spec, stage), {.time = time}, nullptr);
+  const std::vector<double> share = coupling::plateau_share(a.phases, state->heat);
+  mechanics::grow(*a.mechanics, mechanical_conditions(spec, stage),
+                  {.time = time, .temperature = state->heat.temperature, .plateau_share = share},
+                  &state->mechanics);
+}
+
+}  // namespace
+
 coupling::BodyHeat Deposition::grow(double time, coupling::State* state) {
   if (!mesh_.advance(time)) return {};
-  // The conditions are those of the stage in which the step has ended.
+  // The conditions are those of the stage in which the step has ended. At the start there is no heat yet.
   const cases::StageRun* stage = a_.first_stage();
   for (const cases::StageRun& run : a_.stages)
     if (run.start < time) stage = &run;
-  const InitialTemperatures& initial = *a_.initial_temperatures;
   coupling::BodyHeat heat;
-  heat.poured = a_.heat->grow(
-      thermal_conditions(spec_, stage), [&](Index node, int body) { return initial.enthalpy(node, body); },
-      state != nullptr ? &state->heat : nullptr);
+  if (a_.heat) {
+    const InitialTemperatures& initial = *a_.initial_temperatures;
+    heat.poured = a_.heat->grow(
+        thermal_conditions(spec_, stage),
+        [&](Index node, int body) { return initial.enthalpy(node, body); },
+        state != nullptr ? &state->heat : nullptr);
+  }
+  if (a_.mechanics) grow_mechanics(spec_, stage, time, state, a_);
   // Criteria refer to the elements and to the storage that have just changed; their records go on.
   if (a_.criteria)
     a_.criteria->replace(

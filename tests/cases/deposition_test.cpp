@@ -355,8 +355,8 @@ TEST(Deposition, RefusesWhatItCannotYetWithItsPlace) {
     return changed.replace(changed.find(from), from.size(), to);
   };
   EXPECT_THAT(k_here.refusal("twice", text + k_front), HasSubstr("the name 'layers' is used by two"));
-  EXPECT_THAT(k_here.refusal("coupled", with("physics = \"heat\"", "physics = \"thermomechanical\"")),
-              AllOf(HasSubstr("coupled.toml:"), HasSubstr("in heat alone so far")));
+  EXPECT_THAT(k_here.refusal("mechanics", with("physics = \"heat\"", "physics = \"mechanics\"")),
+              AllOf(HasSubstr("mechanics.toml:"), HasSubstr("mechanics alone does not follow")));
   EXPECT_THAT(k_here.refusal("normal", with("normal = [0, 1]", "normal = [0, 0]")),
               HasSubstr("no complete front"));
   EXPECT_THAT(k_here.refusal("body", with("body = \"block\"", "body = \"wall\"")), HasSubstr("wall"));

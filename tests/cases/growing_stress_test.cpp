@@ -1,0 +1,247 @@
+/// Stress in bodies that grow: closed forms of layered bars and of a clamped cube, the first law, restart,
+/// processes, births one by one or in layers, what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "case_folder.hpp"
+
+namespace {
+
+using solidus::testing::CaseFolder;
+using solidus::testing::CaseRun;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const CaseFolder k_here("growing_stress");
+
+constexpr double k_young = 100e9, k_expansion = 2e-5, k_rise = 400;
+constexpr double k_base = 0.004, k_layer = 0.002;  // [m]
+
+/// Metal that conducts so well that a bar has one temperature; without a contraction across.
+std::string metal(const std::string& more = "") {
+  return k_here.write(more.empty() ? "metal.toml" : "yielding.toml",
+                      "title = \"metal\"\ndensity = \"4000 kg/m3\"\nconductivity = \"4000 W/m/K\"\n"
+                      "specific_heat = \"1000 J/kg/K\"\nyoung_modulus = \"100 GPa\"\npoisson_ratio = 0\n"
+                      "expansion = \"2e-5 1/K\"\nexpansion_reference = \"20 degC\"\n" +
+                          more);
+}
+
+/// A cantilever of layers of 2 mm on a base of 4 mm, held at x = 0, and the deflection of its lower side at
+/// three places away from both ends.
+struct Bar {
+  int layers = 4, along = 24, rows_of_layer = 2;
+  std::string element = "quad8", births = "20*(rint((y - 0.005)/0.002) + 1)", material = metal();
+  std::string start = "{ formula = \"y < 0.0041 ? 20 : 420\", unit = \"degC\" }";
+  std::string conditions, deposition, time = "[time]\nend = \"100 s\"\nstep = \"1 s\"\n";
+  double height() const { return k_base + layers * k_layer; }
+  std::string text() const {
+    std::string text = fmt::format(
+        "title = \"A bar of layers\"\n[analysis]\nkind = \"plane_strain\"\n[mesh]\nshape = \"block\"\n"
+        "element = \"{}\"\n[mesh.block]\nsize = [\"96 mm\", \"{} m\"]\ndivisions = [{}, {}]\n"
+        "[[body]]\nname = \"block\"\nmaterial = \"{}\"\ninitial_temperature = {}\n"
+        "[[deposition]]\nname = \"layers\"\nbody = \"block\"\nkind = \"times\"\nbare = \"y_max\"\n"
+        "time = {{ formula = \"y < 0.004 ? 0 : {}\" }}\n{}"
+        "[[mechanical_condition]]\nname = \"clamp\"\ngroup = \"x_min\"\nkind = \"displacement\"\nux = \"0 "
+        "mm\"\nuy = \"0 mm\"\n{}{}",
+        element, height(), along, (2 + layers) * rows_of_layer, material, start, births, deposition,
+        conditions, time);
+    for (const int x : {32, 48, 64})
+      text += fmt::format(
+          "[[probe]]\nname = \"v{}\"\nfield = \"displacement\"\ncomponent = \"y\"\nunit = \"m\"\npoint = "
+          "[\"{} mm\", \"0 mm\"]\n",
+          x, x);
+    return text;
+  }
+};
+
+std::string films() {
+  std::string text;
+  for (const char* group : {"y_min", "y_max"})
+    text += fmt::format(
+        "[[thermal_condition]]\nname = \"air_{}\"\ngroup = \"{}\"\nkind = \"film\"\ncoefficient = \"20000 "
+        "W/m2/K\"\nambient = \"20 degC\"\n",
+        group, group);
+  return text;
+}
+
+/// Of the lower side, positive where the ends rise, by second differences.
+double curvature(const CaseRun& run, double time) {
+  const auto v = [&](const char* name) { return solidus::testing::at(run.history, name, time); };
+  return (v("v32[m]") - 2 * v("v48[m]") + v("v64[m]")) / std::pow(0.016, 2);
+}
+
+/// The bar as a beam: a layer that is laid on it hot and cools pulls it together on its upper side,
+///   Δκ = α ∫ (Θ_b − Θ) (y − y_m) dy / I,  y_m and I of all that is there.
+/// Θ_b is that of the nodes at birth: in the middle of old and new metal at their common face, whose
+/// quadratic interpolation over the lowest row is Θ + ΔΘ (1 + η/4 − η²/4). At the face of the base the
+/// formula of the initial temperature has the new metal cold, and the difference to one is twice that.
+double curvature_of_layers(int layers, int rows_of_layer) {
+  double total = 0;
+  for (int k = 1; k <= layers; ++k) {
+    const double height = k_base + k * k_layer, middle = height / 2, inertia = std::pow(height, 3) / 12;
+    const double row = k_layer / rows_of_layer, foot = height - k_layer;
+    const double all = k_layer * (foot + k_layer / 2 - middle);
+    // Of η/4 − η²/4 over the row the mean is −1/12, and that of its product with η is 1/12.
+    const double lowest = row * (-(foot + row / 2 - middle) / 12 + row / 2 / 12);
+    total += k_expansion * k_rise * (all + (k == 1 ? 2 : 1) * lowest) / inertia;
+  }
+  return total;
+}
+
+TEST(GrowingStress, ABarOfLayersHasTheCurvatureOfItsClosedForm) {
+  Bar bar;
+  bar.conditions = films();
+  const CaseRun run = k_here.run("layers", bar.text());
+  ASSERT_TRUE(run.finished) << run.reason;
+  const double exact = curvature_of_layers(4, 2), found = curvature(run, 100);
+  RecordProperty("percent", std::to_string(100 * std::abs(found / exact - 1)));
+  EXPECT_NEAR(found, exact, 1e-4 * exact) << "of " << exact << " 1/m";
+}
+
+/// A base that a couple bends, onto which a layer is laid free of stress at the same temperature: what was
+/// bent to κ springs back to κ (1 − I_0/I_1) when the couple goes.
+TEST(GrowingStress, ALayerOnABentBarHoldsItBent) {
+  Bar bar;
+  bar.layers = 1;
+  bar.start = "\"20 degC\"";
+  bar.births = "2";
+  bar.conditions =
+      "[[mechanical_condition]]\nname = \"couple\"\ngroup = \"x_max\"\nkind = \"traction\"\nstages = "
+      "[\"bent\"]\ntraction = [{ formula = \"y < 0.004 ? 2e10*(0.002 - y) : 0\", unit = \"Pa\" }, \"0 "
+      "Pa\"]\n[[stage]]\nname = \"bent\"\nduration = \"3 s\"\n[[stage]]\nname = \"free\"\nduration = \"1 "
+      "s\"\n";
+  bar.time = "[time]\nstep = \"1 s\"\n";
+  const CaseRun run = k_here.run("bent", bar.text());
+  ASSERT_TRUE(run.finished) << run.reason;
+  const double bent = 2e10 / k_young, share = std::pow(k_base / (k_base + k_layer), 3);
+  EXPECT_NEAR(curvature(run, 2), bent, 0.001 * bent);
+  EXPECT_NEAR(curvature(run, 3), bent, 0.001 * bent);  // the layer adds nothing at its birth
+  EXPECT_NEAR(curvature(run, 4), bent * (1 - share), 0.002 * bent);
+}
+
+/// A cube that is held on all sides, deposited in layers and heated.
+std::string clamped_cube(const std::string& element) {
+  std::string text = fmt::format(
+      "title = \"A cube that is held\"\n[analysis]\nkind = \"solid\"\n[mesh]\nshape = \"block\"\nelement = "
+      "\"{}\"\n[mesh.block]\nsize = [\"10 mm\", \"10 mm\", \"10 mm\"]\ndivisions = [2, 2, 4]\n"
+      "[time]\nend = \"20 s\"\nstep = \"1 s\"\n[[body]]\nname = \"block\"\nmaterial = \"{}\"\n"
+      "initial_temperature = \"100 degC\"\n[[deposition]]\nname = \"layers\"\nbody = \"block\"\nkind = "
+      "\"front\"\nfrom = [\"0 mm\", \"0 mm\", \"3 mm\"]\nnormal = [0, 0, 1]\nspeed = \"1 mm/s\"\n"
+      "[[thermal_condition]]\nname = \"heating\"\ngroup = \"block\"\nkind = \"source\"\npower = {{ of = "
+      "\"time\", argument_unit = \"s\", unit = \"MW/m3\", points = [[0, 0], [10, 0], [10.001, 80], [20, 80]] "
+      "}}\n",
+      element,
+      k_here.write("cube.toml",
+                   "title = \"metal\"\ndensity = \"4000 kg/m3\"\nconductivity = \"400 W/m/K\"\n"
+                   "specific_heat = \"1000 J/kg/K\"\nyoung_modulus = \"100 GPa\"\npoisson_ratio = 0.3\n"
+                   "expansion = \"2e-5 1/K\"\n"));
+  const char* const axes = "xyz";
+  for (int i = 0; i < 3; ++i)
+    for (const char* side : {"min", "max"})
+      text += fmt::format(
+          "[[mechanical_condition]]\nname = \"{0}_{1}\"\ngroup = \"{0}_{1}\"\nkind = \"displacement\"\nu{0} = "
+          "\"0 mm\"\n",
+          axes[i], side);
+  for (const char* component : {"xx", "zz"})
+    for (const char* kind : {"minimum", "maximum"})
+      text += fmt::format(
+          "[[probe]]\nname = \"{0}_{1}\"\nkind = \"{1}\"\nfield = \"stress\"\ncomponent = \"{0}\"\ngroup = "
+          "\"block\"\nunit = \"MPa\"\n",
+          component, kind);
+  text +=
+      "[[probe]]\nname = \"T\"\nfield = \"temperature\"\nunit = \"degC\"\npoint = [\"5 mm\", \"5 mm\", \"8 "
+      "mm\"]\n";
+  return text;
+}
+
+TEST(GrowingStress, ACubeThatIsHeldHasItsClosedFormAfterDeposition) {
+  for (const char* element : {"hex8", "hex20", "tet10"}) {
+    const CaseRun run = k_here.run(std::string("cube_") + element, clamped_cube(element));
+    ASSERT_TRUE(run.finished) << run.reason;
+    const auto last = [&](const std::string& column) { return run.history.at(column).back(); };
+    const double rise = last("T[degC]") - 100;
+    EXPECT_GT(rise, 100);
+    // −E α ΔΘ/(1 − 2ν); what deformation heats is conducted in the step that follows.
+    const double exact = -1e-6 * k_young * k_expansion * rise / (1 - 2 * 0.3);
+    for (const char* component : {"xx", "zz"})
+      for (const char* kind : {"minimum", "maximum"})
+        EXPECT_NEAR(last(fmt::format("{}_{}[MPa]", component, kind)), exact, 2e-4 * std::abs(exact))
+            << element << ' ' << component;
+    EXPECT_LT(std::abs(last("energy_defect[J]")), 1e-8 * last("heat_exchanged[J]"));
+  }
+}
+
+/// Hot layers on a bar that yields, as time steps adapt.
+Bar yielding() {
+  Bar bar;
+  bar.layers = 2, bar.element = "quad4", bar.along = 12;
+  bar.material = metal("[plasticity]\nflow_stress = \"100 MPa\"\n");
+  bar.conditions = films();
+  bar.time = "[time]\nend = \"60 s\"\nstep = \"1 s\"\nadaptive = true\n";
+  return bar;
+}
+
+TEST(GrowingStress, TheFirstLawHoldsWithMetalThatComesAndYields) {
+  for (const char* scheme : {"isentropic", "isothermal", "double_pass", "block_iterative"}) {
+    const Bar bar = yielding();
+    const CaseRun run =
+        k_here.run(std::string("first_law_") + scheme, bar.text(), {fmt::format("coupling.scheme=\"{}\"", scheme)});
+    ASSERT_TRUE(run.finished) << run.reason;
+    EXPECT_LT(std::abs(run.history.at("energy_defect[J]").back()),
+              1e-8 * run.history.at("heat_exchanged[J]").back())
+        << scheme;
+    EXPECT_GT(run.history.at("plastic_dissipation[J]").back(), 0) << scheme;
+  }
+}
+
+TEST(GrowingStress, GoesOnExactlyAfterARestart) {
+  k_here.expect_exact_restart("restart", yielding().text(), 30);
+  k_here.expect_exact_restart("restart_two_step", yielding().text(), 30, {"mechanics.integration=\"bdf2\""});
+}
+
+/// Births one by one are the limit of births in layers.
+TEST(GrowingStress, ElementByElementIsTheLimitOfLayers) {
+  const auto bend = [](const std::string& name, const std::string& interval) {
+    Bar bar;
+    bar.layers = 2, bar.element = "quad4", bar.rows_of_layer = 4;
+    bar.births = "20 + 10*x/0.096 + 20*rint((y - 0.005)/0.002)";
+    bar.deposition = interval;
+    bar.conditions = films();
+    bar.time = "[time]\nend = \"80 s\"\nstep = \"1 s\"\n";
+    const CaseRun run = k_here.run(name, bar.text());
+    EXPECT_TRUE(run.finished) << run.reason;
+    return curvature(run, 80);
+  };
+  const double one_by_one = bend("one_by_one", ""), few = bend("few", "interval = \"2.5 s\"\n"),
+               layers = bend("in_layers", "interval = \"10 s\"\n");
+  RecordProperty("of_layers_and_few_over_one_by_one",
+                 fmt::format("{} {}", layers / one_by_one, few / one_by_one));
+  EXPECT_NEAR(few, one_by_one, 0.02 * one_by_one);
+  EXPECT_NEAR(layers, one_by_one, 0.05 * one_by_one);
+}
+
+TEST(GrowingStress, RefusesWhatItCannotYetWithItsPlace) {
+  const Bar bar = yielding();
+  const std::string text = bar.text();
+  EXPECT_THAT(k_here.refusal("simultaneous", text + "[coupling]\nscheme = \"simultaneous\"\n"),
+              AllOf(HasSubstr("simultaneous.toml:"), HasSubstr("the simultaneous scheme cannot yet")));
+  EXPECT_THAT(k_here.refusal("inertia", text + "[dynamics]\n"), HasSubstr("inertia"));
+  Bar mixed = yielding();
+  mixed.element = "tri3";
+  EXPECT_THAT(k_here.refusal("mixed", mixed.text()),
+              AllOf(HasSubstr("mixed.toml:"), HasSubstr("mixed triangles or tetrahedra")));
+  std::string relative = text;
+  relative.replace(relative.find("ux = "), 5, "relative = true\nux = ");
+  EXPECT_THAT(k_here.refusal("relative", relative), AllOf(HasSubstr("'clamp'"), HasSubstr("relative = false")));
+  std::string mechanics = text;
+  mechanics.replace(mechanics.find("[analysis]\n"), 11, "[analysis]\nphysics = \"mechanics\"\n");
+  EXPECT_THAT(k_here.refusal("mechanics", mechanics), HasSubstr("thermomechanical"));
+}
+
+}  // namespace
