@@ -98,5 +98,4 @@ void divide_by_birth(mesh::Mesh& mesh, std::vector<Births>& births, double inter
   births = std::move(of_blocks);
 }
 
-
 }  // namespace solidus::linear

@@ -7,9 +7,9 @@
 
 namespace solidus::linear {
 
-/// Rounds times of birth up to multiples of `interval` from the first one on, where it is above zero; more than
-/// GrowingMesh::k_most_times different ones are rounded to so many. Collective.
-/// Returns the different times, rising, the same on all processes.
+/// Rounds times of birth up to multiples of `interval` from the first one on, where it is above zero; more
+/// than GrowingMesh::k_most_times different ones are rounded to so many. Collective. Returns the different
+/// times, rising, the same on all processes.
 std::vector<double> group_times(std::vector<GrowingMesh::Births>& births, double interval);
 
 /// Divides the blocks of a mesh so that all elements of a block are born at one time: those that are there

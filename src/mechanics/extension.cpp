@@ -125,12 +125,13 @@ void extend_displacement(const MechanicalBodies& bodies, const linear::ActiveSet
     std::vector<double> load(bodies.n_forces()), step(load.size(), 0.0);
     matrix.multiply(u, load);
     for (std::size_t i = 0; i < load.size(); ++i) load[i] = fresh[i] != 0 ? -load[i] : 0.0;
-    linear::LinearSolver solver(bodies.mesh, {.prefix = "extension_",
-                                              .kind = linear::SolverKind::jacobi,
-                                              .relative_tolerance = k_tolerance});
+    linear::LinearSolver solver(
+        bodies.mesh,
+        {.prefix = "extension_", .kind = linear::SolverKind::jacobi, .relative_tolerance = k_tolerance});
     if (const linear::LinearReport report = solver.solve(matrix, load, step); !report.converged)
-      logging::warn("the displacement of new nodes at t = {:g} s is not exact ({}): stresses do not depend on it",
-                    time, report.reason);
+      logging::warn(
+          "the displacement of new nodes at t = {:g} s is not exact ({}): stresses do not depend on it", time,
+          report.reason);
     for (std::size_t i = 0; i < step.size(); ++i)
       if (fresh[i] != 0) u[i] += step[i];
   }

@@ -1,4 +1,5 @@
-/// A block that comes is the kernel of its elements in a GrowingBlock; its state begins with the nodes' place.
+/// A block that comes is the kernel of its elements in a GrowingBlock; its state begins with the nodes'
+/// place.
 #include "mechanics/growing_bodies.hpp"
 
 #include <algorithm>
@@ -35,10 +36,8 @@ std::vector<char> waiting(const MechanicalBodies& bodies) {
 /// they have.
 void begin_history(const MechanicalBodies& bodies, std::size_t b, const BirthMoment& birth,
                    std::span<const double> fraction, MechanicalState& state) {
-  const PhaseFields phases =
-      bodies.nodal_phases.evaluate(b, {birth.temperature, birth.plateau_share}, {});
-  state.history[b] =
-      growing(bodies, b)->born_at({state.displacement, birth.temperature, phases.straining});
+  const PhaseFields phases = bodies.nodal_phases.evaluate(b, {birth.temperature, birth.plateau_share}, {});
+  state.history[b] = growing(bodies, b)->born_at({state.displacement, birth.temperature, phases.straining});
   if (b < state.elements.size()) state.elements[b].reset();
   // With the two-step method the history before the last is that of a body at rest, too.
   if (!state.before.empty()) state.before[b] = state.history[b];
@@ -70,8 +69,8 @@ bool follow_elements(MechanicalBodies& bodies) {
     if (comes != nullptr || there[b] != 0 || dynamic_cast<AbsentBlock*>(bodies.blocks[b].get()) != nullptr)
       continue;
     if (!fields) fields = std::make_shared<SinceBirth>(bodies.mesh.x.size(), bodies.components);
-    bodies.blocks[b] = std::make_unique<GrowingBlock>(block.shape, bodies.components,
-                                                      std::move(bodies.blocks[b]), fields);
+    bodies.blocks[b] =
+        std::make_unique<GrowingBlock>(block.shape, bodies.components, std::move(bodies.blocks[b]), fields);
     changed = true;
   }
   return changed;
@@ -93,8 +92,8 @@ void grow(MechanicalPhase& phase, MechanicalConditions conditions, const BirthMo
   if (state == nullptr) return;
   for (std::size_t b = 0; b < born.size(); ++b)
     if (born[b] != 0 && !growing(bodies, b)->there()) born[b] = 0;
-  // Nodes first: elements are born where their nodes come to lie. The heat that comes is a jump, over which the
-  // two-step method must not extrapolate: it begins anew.
+  // Nodes first: elements are born where their nodes come to lie. The heat that comes is a jump, over which
+  // the two-step method must not extrapolate: it begins anew.
   state->dt_before = 0;
   extend_displacement(bodies, before, born, birth.time, state->displacement);
   const std::vector<double> fraction =

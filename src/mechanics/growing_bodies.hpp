@@ -1,6 +1,6 @@
-/// Bodies whose elements come during a run. A phase is made on a mesh with all elements; those that come later
-/// are then taken out of the mesh, block by block, and put back when they are born (linear::GrowingMesh). A
-/// block has all of its elements or none.
+/// Bodies whose elements come during a run. A phase is made on a mesh with all elements; those that come
+/// later are then taken out of the mesh, block by block, and put back when they are born
+/// (linear::GrowingMesh). A block has all of its elements or none.
 #pragma once
 
 #include <span>

@@ -52,7 +52,7 @@ std::vector<double> nodal_temperature(const cases::CaseSpec& spec, const Initial
   }
   std::vector<double> temperature(mesh.x.size());
   for (std::size_t i = 0; i < best.size(); ++i)
-    temperature[i] = std::get<double>(best[i]);         // ghosts may have no body
+    temperature[i] = std::get<double>(best[i]);          // ghosts may have no body
   parallel::GhostExchange(mesh).update(temperature, 1);  // an owner sees every body at its node
   return temperature;
 }
@@ -131,9 +131,9 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
   // The phase is made of all bodies that conditions of the first stage leave; contacts need to know where
   // melt touches them.
   const mesh::Mesh& mesh = a.growth ? a.growth->present() : a.mesh;  // as yet with all that will come
-  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(mesh, spec.analysis.kind, a.materials,
-                                                             initial_temperature, std::move(conditions),
-                                                             std::move(options), contributions);
+  a.mechanics =
+      std::make_unique<mechanics::MechanicalPhase>(mesh, spec.analysis.kind, a.materials, initial_temperature,
+                                                   std::move(conditions), std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
   a.coherency = std::make_unique<coupling::Coherency>(mesh, a.materials, a.mechanics->bodies().active);
   if (!a.coherency->melts()) return;
@@ -338,7 +338,7 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
           *a.mechanics, structural_form(spec), spec.heat.integration == heat::HeatIntegration::closed);
       a.phases.structural = a.structural.get();
     }
-    if (a.growth) a.growth->grow(0, nullptr);  // from here on without what comes later
+    if (a.growth) a.growth->grow(0, nullptr);            // from here on without what comes later
     a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points
   }
   if (spec.has_heat()) build_heat(spec, start, a);

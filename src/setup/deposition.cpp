@@ -224,16 +224,17 @@ void check_mechanics(const cases::CaseSpec& spec, const cases::DepositionSpec& d
   if (spec.dynamics) refuse(d, "grows, which inertia does not know yet", "no [dynamics]");
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
     if (c.relative)
-      throw InputError(c.where,
-                       fmt::format("the condition '{}' counts from where nodes are when its stage begins, which "
-                                   "nodes that come with '{}' do not know",
-                                   c.name, d.name),
-                       "relative = false");
+      throw InputError(
+          c.where,
+          fmt::format("the condition '{}' counts from where nodes are when its stage begins, which "
+                      "nodes that come with '{}' do not know",
+                      c.name, d.name),
+          "relative = false");
   for (const cases::BodySpec& body : spec.bodies)
     if (body.initial_stress)
       throw InputError(body.where,
-                       fmt::format("the body '{}' starts with a stress while '{}' grows: not possible yet", body.name,
-                                   d.name),
+                       fmt::format("the body '{}' starts with a stress while '{}' grows: not possible yet",
+                                   body.name, d.name),
                        "no [body.initial_stress]");
 }
 
@@ -293,15 +294,16 @@ void check_stress_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
       if (mesh.bodies[body].name != d.body || cases::only_conducts(spec.bodies[body])) continue;
       if (mechanics::is_mixed(block, materials[body], spec.mechanics.simplices))
         refuse(d, "grows in mixed triangles or tetrahedra, whose pressure old and new metal would share",
-               "quadrilaterals or hexahedra, elements of second order, or mechanics.simplices = \"displacement\"");
+               "quadrilaterals or hexahedra, elements of second order, or mechanics.simplices = "
+               "\"displacement\"");
       if (material::external_law(materials[body]) != nullptr)
         refuse(d, fmt::format("grows with the law of '{}', which is not the program's", materials[body].name),
                "a material of the built-in laws");
     }
 }
 
-/// The births of all blocks. Where bodies deform the blocks of the mesh are divided, so that each comes whole:
-/// nothing may refer to them yet.
+/// The births of all blocks. Where bodies deform the blocks of the mesh are divided, so that each comes
+/// whole: nothing may refer to them yet.
 std::vector<linear::GrowingMesh::Births> births_of_blocks(const cases::CaseSpec& spec, Assembly& a) {
   std::vector<linear::GrowingMesh::Births> births = all_births(spec, a.mesh);
   if (!spec.has_mechanics()) return births;
@@ -353,8 +355,7 @@ coupling::BodyHeat Deposition::grow(double time, coupling::State* state) {
   if (a_.heat) {
     const InitialTemperatures& initial = *a_.initial_temperatures;
     heat.poured = a_.heat->grow(
-        thermal_conditions(spec_, stage),
-        [&](Index node, int body) { return initial.enthalpy(node, body); },
+        thermal_conditions(spec_, stage), [&](Index node, int body) { return initial.enthalpy(node, body); },
         state != nullptr ? &state->heat : nullptr);
   }
   if (a_.mechanics) grow_mechanics(spec_, stage, time, state, a_);

@@ -1,5 +1,5 @@
-/// Everything that a kernel is given is counted from the birth of its elements, and what it returns goes on as
-/// it is: forces and tangents know no reference.
+/// Everything that a kernel is given is counted from the birth of its elements, and what it returns goes on
+/// as it is: forces and tangents know no reference.
 #include "mechanics/elements/growing_block.hpp"
 
 #include <algorithm>
@@ -133,8 +133,7 @@ StepStart GrowingBlock::since_birth(const StepStart& start) const {
   since.initial_temperature = fields_->temperature;
   since.old_displacement = fields_->old;
   const bool same = start.held_displacement.data() == start.old_displacement.data();
-  since.held_displacement =
-      same ? since.old_displacement : shift(start.held_displacement, fields_->held);
+  since.held_displacement = same ? since.old_displacement : shift(start.held_displacement, fields_->held);
   since.old_history = &old_history_;
   since.held_history = start.held_history == start.old_history ? &old_history_ : &held_history_;
   since.start_history = start.start_history == start.old_history ? &old_history_ : &start_history_;
@@ -200,8 +199,7 @@ BlockWork GrowingBlock::finish(std::span<const double> old_u, std::span<const do
                            .at_work = end.at_work,
                            .elements = end.elements,
                            .deformation = end.deformation};
-  const BlockWork work =
-      kernel_->finish(shift(old_u, fields_->held), shift(u, fields_->now), of_kernel);
+  const BlockWork work = kernel_->finish(shift(old_u, fields_->held), shift(u, fields_->now), of_kernel);
   spread(trial_, end.history);
   write_birth(birth_, end.history);
   return work;
@@ -211,8 +209,7 @@ FlowChange GrowingBlock::restart_flow(const StepStart& start, std::span<const do
                                       std::span<const double> u, const BlockEnd& end) {
   if (!there_) return {};
   strip(end.history, trial_);
-  const BlockEnd of_kernel{
-      .history = trial_, .elements = end.elements, .deformation = end.deformation};
+  const BlockEnd of_kernel{.history = trial_, .elements = end.elements, .deformation = end.deformation};
   // The histories are those of the last prepare(), with the same arguments.
   StepStart since = since_birth(start);
   const FlowChange change =

@@ -1,10 +1,10 @@
 /// A mesh block whose elements are born together during a run: until then it takes no part in mechanics, from
 /// then on its kernel works with what has happened since.
 ///
-/// With the displacement u_b, the temperature Θ_b and the straining of phase changes e_b of the nodes when the
-/// block is born, the kernel sees u − u_b, Θ_b in place of Θ_0, and e^pc − e_b: strain, thermal strain and
-/// history are zero at birth, whatever the deformation of the metal below, which is what the block is laid
-/// down on. Stress follows from the strain since birth alone.
+/// With the displacement u_b, the temperature Θ_b and the straining of phase changes e_b of the nodes when
+/// the block is born, the kernel sees u − u_b, Θ_b in place of Θ_0, and e^pc − e_b: strain, thermal strain
+/// and history are zero at birth, whatever the deformation of the metal below, which is what the block is
+/// laid down on. Stress follows from the strain since birth alone.
 ///
 /// These numbers belong to the nodes of the block: metal of different age at one node has different ones.
 /// They are part of the state, behind what the kernel keeps at the points, so that a checkpoint has them: the
