@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "mechanics/elements/padding.hpp"
-#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "mechanics/elements/block_kernel.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::mechanics {
 
@@ -25,7 +26,7 @@ struct SinceBirth {
   /// @param n_nodes     local nodes of the mesh
   /// @param components  of the displacement
   SinceBirth(std::size_t n_nodes, int components)
-      : now(n_nodes * static_cast<std::size_t>(components)),
+      : now(n_nodes * as_size(components)),
         old(now.size()),
         held(now.size()),
         temperature(n_nodes),
