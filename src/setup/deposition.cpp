@@ -12,6 +12,7 @@
 
 #include "cases/roles.hpp"
 #include "coupling/phases.hpp"
+#include "coupling/scheme_kind.hpp"
 #include "heat/storage/nodal_enthalpy.hpp"
 #include "linear/birth_groups.hpp"
 #include "material/external_law.hpp"
@@ -220,7 +221,7 @@ namespace {
 void check_mechanics(const cases::CaseSpec& spec, const cases::DepositionSpec& d) {
   if (spec.simultaneous())
     refuse(d, "grows, which the simultaneous scheme cannot yet",
-           "coupling.scheme = \"isentropic\", \"isothermal\", \"double_pass\" or \"block_iterative\"");
+           fmt::format("coupling.scheme = \"{}\", or any other", coupling::k_stable_scheme));
   if (spec.dynamics) refuse(d, "grows, which inertia does not know yet", "no [dynamics]");
   for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions)
     if (c.relative)
