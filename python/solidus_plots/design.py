@@ -6,6 +6,7 @@ checked on a mesh of half the size. docs/guide/design.md describes what comes ou
 
 import argparse
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
 import json
 from pathlib import Path
 import shutil
@@ -27,7 +28,7 @@ from solidus_plots.vtu import ResultError, read_collection, read_fields
 
 MOST_RUNS = 25
 INPUT_ERROR = 1  # of a run: what the case says is at fault
-CHECKS = 5  # of the runs, that are kept for the finer mesh
+CHECKS = 4  # of the runs, that are kept for the finer mesh
 COARSE = 0.5  # fineness of the search where none is asked for; the check has twice as much
 LARGER = (1.04, 1.09, 1.18, 1.35)  # sizes that are tried on the finer mesh where the design is not sound there
 
@@ -206,7 +207,8 @@ def write_results(workshop, folder, options, chosen, best):
     write_csv(folder / "design.csv", header, rows)
     document = {"part": str(options.part), "chosen": None if chosen is None else workshop.folder_of(chosen).name,
                 "best_on_the_coarse_mesh": None if best is None else workshop.folder_of(best).name,
-                "runs": [dict(zip(header, row)) for row in rows]}
+                "runs": [{**dict(zip(header, cells)), **asdict(row["trial"].design)}
+                         for row, cells in zip(workshop.rows, rows)]}
     (folder / "design.json").write_text(json.dumps(document, indent=2) + "\n")
     style.setup()
     design_plots.draw(workshop.rows, chosen, folder / "design.png")

@@ -190,20 +190,20 @@ class Search:
         return added[min(judged)[2]][1](start) if judged else None
 
     def _fewer(self):
-        """Leaves out risers, or cools their places by chills in their stead."""
+        """Leaves out risers one by one; where none can be left out, cools the place by a chill that is missed least."""
         design = self.best().design
         if len(design.risers) < 2:
             return
-        wanted = []
-        for number, riser in enumerate(design.risers):
-            fewer = design.without(number)
-            low, _, radius = self._surface(np.array([riser.foot[0], riser.foot[1], riser.foot[2] + riser.sunk]))
-            chill = chill_below(np.array(riser.foot), low, radius, len(design.chills) + 1)
-            wanted.append((f"without {riser.name}", fewer))
-            wanted.append((f"a chill for {riser.name}", replace(fewer, chills=(*fewer.chills, chill))))
         # The smallest risers feed least: what they feed is most likely fed without them.
-        order = sorted(range(len(design.risers)), key=lambda i: design.risers[i].diameter)
-        self.tried([wanted[2 * i + k] for i in order for k in (0, 1)][:max(4, 2 * self._jobs)])
+        order = sorted(range(len(design.risers)), key=lambda i: design.risers[i].diameter)[:max(2, self._jobs)]
+        trials = self.tried([(f"without {design.risers[i].name}", design.without(i)) for i in order])
+        if not trials or any(trial.sound() for trial in trials):
+            return
+        least = order[min(range(len(trials)), key=lambda k: defects_of(trials[k]))]
+        riser, fewer = design.risers[least], design.without(least)
+        low, _, radius = self._surface(np.array([riser.foot[0], riser.foot[1], riser.foot[2] + riser.sunk]))
+        chill = chill_below(np.array(riser.foot), low, radius, len(design.chills) + 1)
+        self.tried([(f"a chill for {riser.name}", replace(fewer, chills=(*fewer.chills, chill)))])
 
     def _each_smaller(self):
         """Makes risers smaller one by one, then all together that could be."""
@@ -222,30 +222,37 @@ class Search:
 
     def _shapes(self):
         """Slimmer and stouter risers with less metal, for as long as one of them is sound: a slim one stands deeper over its
-        pipe, a stout one keeps its heat longer, and which counts depends on the part."""
-        left, changed = list(LESS), False
+        pipe, a stout one keeps its heat longer, and which counts depends on the part. The first two trials say which of both
+        is nearer to sound; from then on shapes go in that direction alone, by one and by two steps where none was sound."""
+        left, ratios, towards = list(LESS), (SLIMMER, 1 / SLIMMER), None
         while left:
-            less = left[0]
             design = self.best().design
             if not design.risers:  # a chill alone was enough
                 return
-            wanted = []
-            for ratio in (SLIMMER, 1 / SLIMMER, *((1.0,) if changed else ())):
-                # With the same height over diameter, metal goes with the third power of the diameter.
-                factor = (less / ratio) ** (1 / 3)
-                risers = tuple(replace(riser.scaled(factor), slender=round(riser.slender * ratio, 3)) for riser in design.risers)
-                if all(STOUTEST <= riser.slender <= SLIMMEST for riser in risers):
-                    wanted.append((f"{risers[0].slender:.3g} diameters high, metal x {less:g}", replace(design, risers=risers)))
-            if any(trial.sound() for trial in self.tried(wanted)):
-                changed = True
-            else:
-                del left[0]
+            shapes = {design.shaped(ratio, left[0]): ratio for ratio in ratios}
+            wanted = [(f"{one.risers[0].slender:.3g} diameters high, metal x {left[0]:g}", one) for one in shapes
+                      if all(STOUTEST <= riser.slender <= SLIMMEST for riser in one.risers)]
+            trials = self.tried(wanted)
+            if towards is None and trials:
+                towards = shapes[min(trials, key=defects_of).design]
+            if self.best().design != design:
+                ratios = (1.0, towards)
+                continue
+            del left[0]
+            if towards is not None and 1.0 not in ratios:
+                ratios = (towards, towards ** 2)
 
     def _narrow_necks(self):
         """Narrow necks save metal and work, and are kept where the part stays sound."""
         design = self.best().design
         narrow = tuple(riser if riser.beside else replace(riser, neck=NARROW) for riser in design.risers)
         self.tried([("narrow necks", replace(design, risers=narrow))])
+
+
+def defects_of(trial):
+    """By what of two trials one is nearer to sound: holes first, then what is left of the risers."""
+    judged = trial.judgement
+    return (math.inf, 0.0) if judged is None else (0.0 if judged.sound else judged.holes, -judged.left)
 
 
 def first_factors(design):
