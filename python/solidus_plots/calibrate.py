@@ -197,10 +197,25 @@ def calibrate(options, say):
     write(calibration, options, model, readings, found, statistics, cost, folder)
     say("")
     say(calibrate_result.text(statistics, found, calibration.confidence))
+    outside = outside_text(model, readings, found.theta, end_of(case))
+    if outside:
+        say(outside)
     if not found.converged or found.message:
         say(f"  {'the search has not ended' if not found.converged else 'the search has ended'}: {found.message}")
     say(f"{model.runs} runs{f', {model.with_derivatives} of them with derivatives' if model.dear else ''}"
         f"{f', after {coarse.runs} coarse ones' if coarse else ''}, {cost['seconds']:.0f} s; results in {folder}")
+
+
+def outside_text(model, readings, theta, end):
+    """How many readings the clock that was found puts before or behind the run; empty: none."""
+    count = 0
+    for series in readings:
+        times = model.times(series, theta)
+        count += int(np.count_nonzero((times < 0) | (times > end)))
+    if count == 0:
+        return ""
+    return (f"  readings before or behind the run with the clock that was found: {count}; they are compared with its first or last "
+            "values: leave them out ('until' of [logger]), or let the run last longer (time.end)")
 
 
 def case_folder(case):

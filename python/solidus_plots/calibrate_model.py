@@ -208,6 +208,10 @@ class Model:
                 return values[0], at
         return default, None
 
+    def times(self, readings, theta):
+        """Of the readings in the run, with the clock at this point."""
+        return np.array([]) if readings.at_end else readings.time + self._of("clock", readings, theta, 0.0)[0]
+
     def _read(self, theta, history, slopes, derivatives):
         values, rows = [], []
         for readings in self.readings:
@@ -220,8 +224,8 @@ class Model:
                 rows.append(row)
                 continue
             lag, of_lag = self._of("lag", readings, theta, readings.lag)
-            shift, of_shift = self._of("clock", readings, theta, 0.0)
-            at = np.clip(readings.time + shift, time[0], time[-1])
+            of_shift = self._of("clock", readings, theta, 0.0)[1]
+            at = np.clip(self.times(readings, theta), time[0], time[-1])
             shown = lagged(time, curve, lag)
             values.append(np.interp(at, time, shown))
             for number, of_number in slopes.items():

@@ -7,6 +7,7 @@ import unittest
 
 import numpy as np
 
+from solidus_plots.calibrate import outside_text
 from solidus_plots.calibrate_file import Parameter, read_calibration
 from solidus_plots.calibrate_fit import RunFailed, Search, fit
 from solidus_plots.calibrate_model import Prediction, assignments, lagged
@@ -158,6 +159,17 @@ class Sensors(unittest.TestCase):
         kink = np.where(time < 2, ramp, ramp[1] + 0 * time)
         np.testing.assert_allclose(lagged(time, kink, lag)[2:], kink[1] + (lagged(time, ramp, lag)[1] - kink[1])
                                    * np.exp(-(time[2:] - 1.0) / lag), rtol=1e-13)
+
+
+class Clocks(unittest.TestCase):
+    def test_readings_that_a_clock_moves_out_of_the_run_are_counted(self):
+        class Fast:
+            def times(self, readings, theta):
+                return readings.time + theta[0]
+        readings = [Readings("T", "T[degC]", 0.0, None, np.array([0.5, 5.0, 9.5]), np.zeros(3), np.arange(3))]
+        self.assertEqual(outside_text(Fast(), readings, [0.0], 10.0), "")
+        self.assertIn("clock that was found: 1; they are compared", outside_text(Fast(), readings, [0.7], 10.0))
+        self.assertIn("clock that was found: 1; they are compared", outside_text(Fast(), readings, [-0.7], 10.0))
 
 
 class Lump:
