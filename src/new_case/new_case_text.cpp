@@ -258,6 +258,13 @@ std::string body_text(const DraftBody& b, bool shots) {
   return t + "\n";
 }
 
+/// The friction without which nothing determines where a casting lies once it has left its walls.
+std::string friction_text(const Draft& d) {
+  if (!d.coupled) return "\n";
+  return "[interface.friction]   # holds a casting that has left its walls\n"
+         "coefficient = 0.3   # an estimate: 0.1 on a coated die to 0.5 on sand\n\n";
+}
+
 std::string interface_text(const Draft& d) {
   std::string t;
   if (!d.law.empty() && d.mould)
@@ -265,11 +272,11 @@ std::string interface_text(const Draft& d) {
       if (cases::is_poured(b.role))
         t += fmt::format(
             "[[interface]]   # the process decides the law: {1} says where its numbers come from\n"
-            "bodies = [{2}, {3}]\nlaw = \"{0}\"\n\n",
-            d.law, "interfaces/" + d.law + ".toml", quoted(b.name), quoted(d.mould->name));
+            "bodies = [{2}, {3}]\nlaw = \"{0}\"\n{4}",
+            d.law, "interfaces/" + d.law + ".toml", quoted(b.name), quoted(d.mould->name), friction_text(d));
   t += "[[interface]]   # between all bodies that touch; laws from the library by materials and roles\n"
-       "bodies = \"all\"\n\n";
-  return t;
+       "bodies = \"all\"\n";
+  return t + friction_text(d);
 }
 
 }  // namespace

@@ -148,8 +148,9 @@ def answers(summary):
     for casting in given["castings"].values():
         if not casting["riser"]:
             add("solid after", casting["last_melt_froze"], "value[s]", "s", 1)
-    for gap in given.get("largest_gaps", {}).values():
-        add("largest gap", gap, "value[m]", "m", 1e6)
+    gaps = given.get("largest_gaps", {}).values()
+    if gaps:
+        add("largest gap", max(gaps, key=lambda gap: gap["value[m]"]), "value[m]", "m", 1e6)
     if "largest_distortion" in given:
         add("largest distortion", given["largest_distortion"], "value[m]", "m", 1e6)
     if "largest_von_mises" in given:
