@@ -19,7 +19,19 @@
 
 namespace solidus::heat {
 
-namespace {}  // namespace
+namespace {
+
+/// Owned nodes, [owned node], of which no volume belongs to bodies that store at points.
+std::vector<char> nodes_without_points(const mesh::Mesh& mesh, const NodalEnthalpy& all,
+                                       const NodalEnthalpy& at_nodes) {
+  const auto one = [](const material::Material&) { return 1.0; };
+  std::vector<char> without;
+  for (Index i = 0; i < mesh.n_owned_nodes; ++i)
+    without.push_back(at_nodes.sum(i, one) == all.sum(i, one) ? 1 : 0);
+  return without;
+}
+
+}  // namespace
 
 ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                            const std::vector<material::Material>& materials,
@@ -74,16 +86,11 @@ void ThermalPhase::build(const ThermalConditions& conditions) {
   // the node's own curve is all of its storage, and none of its volume belongs to bodies that store at
   // points.
   if (nodal) {
-    std::vector<char> relaxed;
-    const auto one = [](const material::Material&) { return 1.0; };
-    if (at_nodes_)
-      for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-        relaxed.push_back(at_nodes_->sum(i, one) == storage_->sum(i, one) ? 1 : 0);
     truncated_newton_ = std::make_unique<TruncatedNewton>(
         mesh_, *system_, *storage_, *solver_, ghosts_,
         TruncatedNewtonOptions{options_.tolerance > 0 ? options_.tolerance : k_nodal_tolerance,
                                options_.max_iterations, k_nodal_tolerance},
-        std::move(relaxed));
+        at_nodes_ ? nodes_without_points(mesh_, *storage_, *at_nodes_) : std::vector<char>());
   }
   // Bodies that store at Gauss points get their kernels at last, once the matrix exists into which they
   // write.

@@ -54,6 +54,34 @@ void add_stage(ThermalReport& report, double carried, ThermalReport& last) {
   report = std::move(last);
 }
 
+/// The pass of one of two stages, to the end of the step.
+ThermalPass part_of(const ThermalPass& pass, const LoadWindow& loads) {
+  return {.time = pass.time,
+          .dt = pass.dt,
+          .iterate = pass.iterate,
+          .newton_steps = pass.newton_steps,
+          .loads = loads};
+}
+
+/// Adds what an attempt has cost to the report of the one that followed.
+void add_effort(const ThermalReport& before, ThermalReport& report) {
+  report.newton.add_solves(before.newton);
+  report.hardest = std::max(report.hardest, before.hardest);
+}
+
+/// The range of surroundings at the present loads and at those of another window, which are set.
+TemperatureRange surroundings_to(const LoadWindow& window, HeatSystem& system) {
+  const TemperatureRange now = system.limits().surroundings();
+  system.set_window(window);
+  const TemperatureRange at_end = system.limits().surroundings();
+  return {std::min(now.lowest, at_end.lowest), std::max(now.highest, at_end.highest)};
+}
+
+void keep_middle(ThermalState& middle, StageFlows& flows) {
+  flows.middle_temperature = std::move(middle.temperature);
+  flows.middle_enthalpy = std::move(middle.enthalpy);
+}
+
 }  // namespace
 
 ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
@@ -93,14 +121,11 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   const bool flows = nodal() && !pass.adiabatic;
   // The first stage, backward Euler over its share of the step.
   ThermalState middle;
-  ThermalReport report = solve_stage(old, old, first,
-                                     {.time = pass.time - pass.dt + first.dt,
-                                      .dt = pass.dt,
-                                      .iterate = pass.iterate,
-                                      .newton_steps = pass.newton_steps,
-                                      .loads = first_loads(pass.time, pass.dt)},
-                                     middle);
+  ThermalPass to_middle = part_of(pass, first_loads(pass.time, pass.dt));
+  to_middle.time = pass.time - pass.dt + first.dt;
+  ThermalReport report = solve_stage(old, old, first, to_middle, middle);
   StageFlows stage_flows;
+  stage_flows.share = k_sdirk_share;
   if (flows) stage_flows.first = flow(old, middle, first);
   std::optional<ExtrapolationGuard> guard;
   TemperatureRange around;
@@ -108,19 +133,12 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   // By the closed rule extrapolation is watched: the range of surroundings over both stages bounds what it
   // may lead to.
   if (flows && options_.integration == HeatIntegration::closed) {
-    around = system_->limits().surroundings();
-    system_->set_window(last_loads(pass.time, pass.dt, true));
-    const TemperatureRange at_end = system_->limits().surroundings();
-    around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
+    around = surroundings_to(last_loads(pass.time, pass.dt, true), *system_);
     guard.emplace(*system_, *storage_, old, middle);
     second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
   // The second stage takes the means of loads over its own part of the step.
-  ThermalPass to_end{.time = pass.time,
-                     .dt = pass.dt,
-                     .iterate = pass.iterate,
-                     .newton_steps = pass.newton_steps,
-                     .loads = last_loads(pass.time, pass.dt, second_order)};
+  ThermalPass to_end = part_of(pass, last_loads(pass.time, pass.dt, second_order));
   ThermalReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
   // Afterwards the temperatures themselves tell; then the second stage is solved again, as backward Euler.
   const auto overshoots = [&] {
@@ -132,22 +150,17 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
     to_end.loads = last_loads(pass.time, pass.dt, false);
     // The history of the first stage is built again, because the second one has overwritten it.
     begin_stage(first, old.temperature);
-    ThermalReport again = solve_stage(old, middle, rest, to_end, next);
-    again.newton.add_solves(last.newton);
-    again.hardest = std::max(again.hardest, last.hardest);
-    last = std::move(again);
+    const ThermalReport before = std::move(last);
+    last = solve_stage(old, middle, rest, to_end, next);
+    add_effort(before, last);
   }
   if (!second_order)
     logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
   const linear::RungeKuttaStage& stage = second_order ? extrapolated : rest;
   if (flows) stage_flows.last = flow(stage_start(old, middle, stage), next, stage);
   stage_flows.second_order = second_order;
-  stage_flows.share = k_sdirk_share;
   stage_flows.last_share = stage.dt / pass.dt;
-  if (flows && keeps_stages_) {
-    stage_flows.middle_temperature = std::move(middle.temperature);
-    stage_flows.middle_enthalpy = std::move(middle.enthalpy);
-  }
+  if (flows && keeps_stages_) keep_middle(middle, stage_flows);
   // Sums of both stages are the step's.
   add_stage(report, stage.carried, last);
   report.flows = std::move(stage_flows);

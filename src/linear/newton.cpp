@@ -81,6 +81,10 @@ class Iteration {
   /// x = start + alpha × step and the residual there; returns step · r.
   double slope_at(double alpha);
   double search(double slope);
+  bool ends(NewtonReport& report) const;
+  LinearReport find_direction(BlockMatrix* tangent, double forcing);
+  void go_back();
+  static NewtonReport without_direction(bool solved, const LinearReport& linear, NewtonReport report);
 
   struct Work {
     std::vector<double> r, step;            ///< on owned nodes
@@ -214,6 +218,55 @@ double Iteration::search(double slope) {
   return best;
 }
 
+/// Whether the iteration ends where it is; the report then says how.
+bool Iteration::ends(NewtonReport& report) const {
+  if (!std::isfinite(norm_)) {
+    report.reason = "the residual is not a number";
+    return true;
+  }
+  if (converged(report.iterations < options_.max_iterations)) {
+    report.converged = true;
+    return true;
+  }
+  if (report.iterations == options_.max_iterations) {
+    report.out_of_iterations = true;
+    report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
+    return true;
+  }
+  return false;
+}
+
+/// Solves for the step, which is spread where that has succeeded.
+/// @param tangent  null: the factors of the round before serve again
+LinearReport Iteration::find_direction(BlockMatrix* tangent, double forcing) {
+  for (double& value : work_.r) value = -value;
+  LinearReport linear = tangent == nullptr ? solver_.solve_again(work_.r, work_.step, forcing)
+                                           : solver_.solve(*tangent, work_.r, work_.step, forcing);
+  for (double& value : work_.r) value = -value;
+  if (!linear.converged) return linear;
+  // Prescribed entries do not move, followers move with their leaders.
+  for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
+    if ((*fixed_)[i]) work_.step[i] = 0;
+  constraints_->share(std::span(work_.step).first(n_first_));
+  spread_step();
+  return linear;
+}
+
+/// Back to where the last search has started.
+void Iteration::go_back() {
+  std::copy(work_.start.begin(), work_.start.end(), x_.begin());
+  evaluate();
+}
+
+/// The iteration ends for want of a direction, which is no failure of a solution.
+NewtonReport Iteration::without_direction(bool solved, const LinearReport& linear, NewtonReport report) {
+  report.converged = solved;
+  if (solved) return report;
+  report.no_direction = true;
+  report.reason = "linear solver: " + linear.reason;
+  return report;
+}
+
 NewtonReport Iteration::run() {
   NewtonReport report;
   // The first residual and tangent; what is fixed and tied is known with them.
@@ -229,48 +282,19 @@ NewtonReport Iteration::run() {
     // Each round: test, direction, search along it, and whether the tangent may be used once more.
     check_interruption();
     report.residuals.push_back(measured());
-    if (!std::isfinite(norm_)) {
-      report.reason = "the residual is not a number";
-      return report;
-    }
-    if (converged(report.iterations < options_.max_iterations)) {
-      report.converged = true;
-      return report;
-    }
-    if (report.iterations == options_.max_iterations) {
-      report.out_of_iterations = true;
-      report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
-      return report;
-    }
+    if (ends(report)) return report;
     // Beyond here such a solution only gets better: nothing that follows makes it a failure.
     const bool solved = stepped_ && converged(false);
     // A chord uses the factors of the round before.
     if (!tangent && !chord) tangent = &system_.tangent(x_);
-    for (double& value : work_.r) value = -value;
     // The tolerance of the linear solve follows the convergence (Eisenstat and Walker).
-    const double eta = forcing.next(norm_, goal() / norm_);
-    const LinearReport linear = chord ? solver_.solve_again(work_.r, work_.step, eta)
-                                      : solver_.solve(*tangent, work_.r, work_.step, eta);
-    for (double& value : work_.r) value = -value;
+    const LinearReport linear =
+        find_direction(chord ? nullptr : tangent, forcing.next(norm_, goal() / norm_));
     tangent = nullptr;
     ++report.iterations;
     if (takes_effort()) ++report.effort;
     report.linear_iterations += linear.iterations;
-    if (!linear.converged && solved) {
-      report.converged = true;
-      return report;
-    }
-    if (!linear.converged) {
-      report.no_direction = true;
-      report.reason = "linear solver: " + linear.reason;
-      return report;
-    }
-    // Prescribed entries do not move, followers move with their leaders.
-    for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
-      if ((*fixed_)[i]) work_.step[i] = 0;
-    constraints_->share(std::span(work_.step).first(n_first_));
-    spread_step();
-
+    if (!linear.converged) return without_direction(solved, linear, std::move(report));
     // The search starts from x, to which it may have to go back.
     const double norm_before = norm_;
     double alpha = 1;
@@ -280,14 +304,12 @@ NewtonReport Iteration::run() {
       if (chord && !(norm_ < norm_before)) {
         // The tangent before does not serve here, where a contact that it knew has opened: back, for a new
         // one.
-        std::copy(work_.start.begin(), work_.start.end(), x_.begin());
-        evaluate();
+        go_back();
         chord = false;
         continue;
       }
       if (solved && !(norm_ < norm_before)) {
-        std::copy(work_.start.begin(), work_.start.end(), x_.begin());
-        evaluate();
+        go_back();
         report.converged = true;
         return report;
       }

@@ -101,6 +101,30 @@ class EventList {
   double from_, to_, spacing_;
 };
 
+/// Adds the times of mechanical conditions and tools.
+void add_mechanical(const cases::CaseSpec& spec, const cases::StageRun* stage, EventList& list) {
+  for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (!cases::holds(c.stages, stage)) continue;
+    using Kind = cases::MechanicalConditionSpec::Kind;
+    if (c.kind == Kind::pressure) list.add(c.pressure, c.clock, true);
+    if (c.kind == Kind::traction)
+      for (const Function& f : c.traction) list.add(f, c.clock, true);
+    if (c.kind == Kind::body_force)
+      for (const Function& f : c.force) list.add(f, c.clock, true);
+    if (c.kind == Kind::metallostatic)
+      for (const Function* f : {&c.level, &c.squeeze}) list.add(*f, c.clock, true);
+    if (c.kind == Kind::displacement)
+      for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
+        if (*u) list.add(**u, c.clock, true);
+  }
+  if (spec.rotation) list.add(spec.rotation->omega, cases::TimeOrigin::run, true);
+  for (const cases::RigidSurfaceSpec& s : spec.rigid_surfaces) {
+    for (const auto* motion : {&s.ux, &s.uy, &s.uz, &s.rotation})
+      if (*motion) list.add(**motion, cases::TimeOrigin::run, true);
+    if (s.temperature) list.add(*s.temperature, cases::TimeOrigin::run, true, k_of_values);
+  }
+}
+
 }  // namespace
 
 std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::StageRun* stage, double from,
@@ -140,29 +164,7 @@ std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::Sta
     list.add(source.efficiency, cases::TimeOrigin::run, false);
     list.add(source_times(source, spec.dimension(), from, to));
   }
-  // Mechanical conditions and tools follow in the same way.
-  if (spec.has_mechanics()) {
-    for (const cases::MechanicalConditionSpec& c : spec.mechanical_conditions) {
-      if (!cases::holds(c.stages, stage)) continue;
-      using Kind = cases::MechanicalConditionSpec::Kind;
-      if (c.kind == Kind::pressure) list.add(c.pressure, c.clock, true);
-      if (c.kind == Kind::traction)
-        for (const Function& f : c.traction) list.add(f, c.clock, true);
-      if (c.kind == Kind::body_force)
-        for (const Function& f : c.force) list.add(f, c.clock, true);
-      if (c.kind == Kind::metallostatic)
-        for (const Function* f : {&c.level, &c.squeeze}) list.add(*f, c.clock, true);
-      if (c.kind == Kind::displacement)
-        for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
-          if (*u) list.add(**u, c.clock, true);
-    }
-    if (spec.rotation) list.add(spec.rotation->omega, cases::TimeOrigin::run, true);
-    for (const cases::RigidSurfaceSpec& s : spec.rigid_surfaces) {
-      for (const auto* motion : {&s.ux, &s.uy, &s.uz, &s.rotation})
-        if (*motion) list.add(**motion, cases::TimeOrigin::run, true);
-      if (s.temperature) list.add(*s.temperature, cases::TimeOrigin::run, true, k_of_values);
-    }
-  }
+  if (spec.has_mechanics()) add_mechanical(spec, stage, list);
   return std::move(list.events);
 }
 

@@ -18,6 +18,28 @@ double fourth(double t) {
   return cube(t) * t;
 }
 
+/// Adds blocks of all pairs of nodes to the derivative of heat by displacements.
+void add_blocks(std::span<const double> values, std::span<const SlotCache::Slot> slots,
+                linear::CoupledMatrix& matrix) {
+  const auto components = as_size(matrix.components());
+  for (std::size_t e = 0; e < slots.size(); ++e) {
+    double* const to = matrix.heat_by_displacement(slots[e]);
+    for (std::size_t c = 0; c < components; ++c) to[c] += values[e * components + c];
+  }
+}
+
+bool at_rest(std::span<const Point> rates) {
+  return std::all_of(rates.begin(), rates.end(), [](const Point& v) { return v == Point{}; });
+}
+
+/// Whether a point of n nodes moves along the master: most points of a step do not, and the slopes of their
+/// shares, which cost most, are not computed.
+bool moves(std::span<const Point> share, std::size_t n_slave, std::size_t n) {
+  for (std::size_t a = n_slave; a < n; ++a)
+    if (!at_rest(share.subspan(a * n, n))) return true;
+  return false;
+}
+
 }  // namespace
 
 void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperature,
@@ -142,28 +164,19 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
       add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
       add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
     }
-    // Last the place on the master, by the rates of the shares of its nodes: most points of a step
-    // do not move along it, and their (costlier) slopes are not computed.
-    const auto moves_of = [&](std::size_t a) { return rates.share.subspan(a * n, n); };
-    const auto at_rest = [&](std::size_t a) {
-      const auto moves = moves_of(a);
-      return std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; });
-    };
-    bool moved = false;
-    for (std::size_t a = s.n_slave; a < n && !moved; ++a) moved = !at_rest(a);
+    // Last the place on the master, by the rates of the shares of its nodes.
+    const bool moved = moves(rates.share, s.n_slave, n);
     if (moved) {
       per_share.assign(n * n, 0.0);
       add_share_slopes(s, temperature, per_share);
     }
-    for (std::size_t a = s.n_slave; a < n && moved; ++a)
-      if (!at_rest(a))
+    for (std::size_t a = s.n_slave; a < n && moved; ++a) {
+      const auto rates_of_node = rates.share.subspan(a * n, n);
+      if (!at_rest(rates_of_node))
         add(std::span(per_share).subspan(a * n, n),
-            [&](std::size_t b) -> const Point& { return moves_of(a)[b]; });
-    const auto slots = displacement_slots_.slots(run.first, run.nodes);
-    for (std::size_t e = 0; e < n * n; ++e) {
-      double* const to = matrix.heat_by_displacement(slots[e]);
-      for (std::size_t c = 0; c < components; ++c) to[c] += run.values[e * components + c];
+            [&](std::size_t b) -> const Point& { return rates_of_node[b]; });
     }
+    add_blocks(run.values, displacement_slots_.slots(run.first, run.nodes), matrix);
   }
 }
 

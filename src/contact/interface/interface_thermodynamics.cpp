@@ -133,19 +133,109 @@ InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSi
   return interface_response(sides, theta, slope(theta));
 }
 
+namespace {
+
+/// The balance of an interface whose slip follows its temperature: γ(Θ) from Φ_c = 0 at the temperature Θ
+/// (5.41), then the balance in Θ alone (5.42); dγ/dΘ = −t_N μ_Θ/Φ_γ.
+class SlipBalance {
+ public:
+  SlipBalance(const FrictionLaw& law, const FrictionInput& in, double time_step, const InterfaceSides& sides,
+              const InterfaceStage& from)
+      : law_(law),
+        in_(in),
+        rate_(1 / time_step),
+        conductance_(sum(sides.conductance)),
+        source_(supply(sides)),
+        capacity_(law.heat_capacity() / from.time_step),
+        start_(from.temperature) {
+    if (law.stores()) stored_ = law.coefficient().point(in.internal_variable, in.temperature).stored_theta;
+  }
+  /// The slip of a temperature and what is left of the balance, positive above the solution [W/m²].
+  double left_at(double theta);
+  /// From the trial state on; nothing where there is no temperature of balance.
+  std::optional<double> solve(double theta);
+  const FrictionResponse& friction() const { return friction_; }
+  /// The derivative of the balance by Θ, at γ(Θ) of the last left_at().
+  double slope() const { return slope_; }
+
+ private:
+  const FrictionLaw& law_;
+  const FrictionInput& in_;
+  double rate_, conductance_, source_, capacity_;
+  double start_;  ///< Θ that the interface stores from
+  /// K_Θ at the start, from which the structural entropy of hardening is counted.
+  double stored_ = 0;
+  FrictionResponse friction_;
+  double slope_ = 0;
+};
+
+double SlipBalance::left_at(double theta) {
+  // The slip of this temperature, with its traction, from the cone (5.41).
+  friction_ =
+      law_.update({in_.trial, in_.pressure, in_.internal_variable, theta, /*iterate=*/{}, in_.stiffening});
+  FrictionResponse& f = friction_;
+  double entropy = 0, entropy_slip = 0, heat_theta = 0, slip_theta = 0, heat_slip = 0;
+  // A point that slips changes its slip with temperature, and by it entropy and heat; one that
+  // sticks does not.
+  if (!f.sticks) {
+    const auto now = law_.coefficient().point(f.internal_variable, theta);
+    slip_theta = -in_.pressure * (now.theta + now.initial_theta) / f.stiffness;
+    // A law that stores energy of hardening splits the work into what is stored and what is heat;
+    // without storage all of T γ is heat.
+    if (law_.stores()) {
+      const auto along = law_.coefficient().point(f.internal_variable, in_.temperature);
+      entropy = stored_ - along.stored_theta;
+      entropy_slip = -along.theta * in_.pressure;
+      heat_theta = f.slip * now.initial_theta * in_.pressure;
+      heat_slip = now.initial * in_.pressure;
+    } else {
+      heat_slip = in_.trial - 2 * law_.tangential_penalty(in_) * f.slip;
+    }
+  }
+  f.structural_entropy = entropy;
+  const double gained = capacity_ * std::log(theta / start_) + entropy * rate_;
+  // The derivative of the balance by Θ, at γ(Θ).
+  slope_ = gained + capacity_ + conductance_ - heat_theta * rate_ +
+           (theta * entropy_slip - heat_slip) * slip_theta * rate_;
+  return theta * (gained + conductance_) - source_ - f.dissipation * rate_;
+}
+
+std::optional<double> SlipBalance::solve(double theta) {
+  // The balance rises with temperature: an upper bound by doubling, then Newton's method, with bisection
+  // whenever it leaves the bounds or gains too little.
+  double low = 0, high = theta, value = left_at(theta);
+  for (int i = 0; value < 0 && i < k_doublings; ++i) {
+    low = high;
+    high *= 2;
+    value = left_at(high);
+  }
+  if (value < 0) return std::nullopt;
+  double step = high, older_step = high;
+  value = left_at(theta);
+  for (int i = 0; i < k_max_iterations; ++i) {
+    double next = theta - value / slope_;
+    if (std::abs(next - theta) <= k_rounding * theta || high - low <= k_rounding * high) break;
+    if (!(next > low && next < high) || std::abs(next - theta) > 0.5 * older_step) next = 0.5 * (low + high);
+    older_step = step;
+    step = std::abs(next - theta);
+    theta = next;
+    value = left_at(theta);
+    (value > 0 ? high : low) = theta;
+  }
+  return theta;
+}
+
+}  // namespace
+
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,
                                          const InterfaceSides& sides,
                                          const std::optional<InterfaceStage>& stage) {
   // A stage of a Runge-Kutta step stores over its own length, while slip makes its heat over the
   // whole step.
-  const double rate = 1 / time_step, conductance = sum(sides.conductance), source = supply(sides);
+  const double rate = 1 / time_step;
   const InterfaceStage from = stage.value_or(InterfaceStage{time_step, in.temperature});
-  const double capacity = law.heat_capacity() / from.time_step;
   const InterfaceStep still{from.time_step, law.heat_capacity(), from.temperature, 0, 0};
   const auto& coefficient = law.coefficient();
-  const double stored =
-      law.stores() ? coefficient.point(in.internal_variable, in.temperature).stored_theta : 0;
-  // K_Θ at the start, from which the structural entropy of hardening is counted.
   InterfaceReturn r;
   // Without capacity and without exchange there is nothing to balance: its heat is that of friction at the
   // temperature that it has.
@@ -157,66 +247,17 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
     return r;
   }
 
-  // γ(Θ) from Φ_c = 0 at the temperature Θ (5.41), then the balance in Θ alone (5.42); dγ/dΘ = −t_N μ_Θ/Φ_γ.
-  double slope = 0;
-  const auto balance = [&](double theta) {
-    // The slip of this temperature, with its traction, from the cone (5.41).
-    r.friction =
-        law.update({in.trial, in.pressure, in.internal_variable, theta, /*iterate=*/{}, in.stiffening});
-    FrictionResponse& f = r.friction;
-    double entropy = 0, entropy_slip = 0, heat_theta = 0, slip_theta = 0, heat_slip = 0;
-    // A point that slips changes its slip with temperature, and by it entropy and heat; one that
-    // sticks does not.
-    if (!f.sticks) {
-      const auto now = coefficient.point(f.internal_variable, theta);
-      slip_theta = -in.pressure * (now.theta + now.initial_theta) / f.stiffness;
-      // A law that stores energy of hardening splits the work into what is stored and what is heat;
-      // without storage all of T γ is heat.
-      if (law.stores()) {
-        const auto along = coefficient.point(f.internal_variable, in.temperature);
-        entropy = stored - along.stored_theta;
-        entropy_slip = -along.theta * in.pressure;
-        heat_theta = f.slip * now.initial_theta * in.pressure;
-        heat_slip = now.initial * in.pressure;
-      } else {
-        heat_slip = in.trial - 2 * law.tangential_penalty(in) * f.slip;
-      }
-    }
-    f.structural_entropy = entropy;
-    const double gained = capacity * std::log(theta / from.temperature) + entropy * rate;
-    // The derivative of the balance by Θ, at γ(Θ).
-    slope = gained + capacity + conductance - heat_theta * rate +
-            (theta * entropy_slip - heat_slip) * slip_theta * rate;
-    return theta * (gained + conductance) - source - f.dissipation * rate;
-  };
-
-  // The balance rises with temperature: an upper bound by doubling, then Newton's method, with bisection
-  // whenever it leaves the bounds or gains too little.
-  double theta = interface_balance(still, sides).temperature;  // the trial state (5.33)
-  double low = 0, high = theta, value = balance(theta);
-  for (int i = 0; value < 0 && i < k_doublings; ++i) {
-    low = high;
-    high *= 2;
-    value = balance(high);
-  }
-  if (value < 0) {
+  SlipBalance balance(law, in, time_step, sides, from);
+  const std::optional<double> found =
+      balance.solve(interface_balance(still, sides).temperature);  // from (5.33)
+  r.friction = balance.friction();
+  if (!found) {
     r.heat.balanced = false;
     return r;
   }
-  double step = high, older_step = high;
-  value = balance(theta);
-  for (int i = 0; i < k_max_iterations; ++i) {
-    double next = theta - value / slope;
-    if (std::abs(next - theta) <= k_rounding * theta || high - low <= k_rounding * high) break;
-    if (!(next > low && next < high) || std::abs(next - theta) > 0.5 * older_step) next = 0.5 * (low + high);
-    older_step = step;
-    step = std::abs(next - theta);
-    theta = next;
-    value = balance(theta);
-    (value > 0 ? high : low) = theta;
-  }
+  const double theta = *found;
   // At the solution: fluxes and their slopes, and the traction by temperature.
-  r.heat = interface_response(sides, theta, slope);
+  r.heat = interface_response(sides, theta, balance.slope());
   if (!r.friction.sticks) {
     const auto now = coefficient.point(r.friction.internal_variable, theta);
     r.traction_by_temperature =

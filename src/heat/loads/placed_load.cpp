@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -50,6 +51,20 @@ bool splits(const LoadLaw& law) {
 bool first_of_its_name(const std::string& name) {
   static std::set<std::string> told;
   return told.insert(name).second;
+}
+
+/// The time after which the overlap is k_overlap, infinite where it is more after the longest one: found by
+/// halving until the overlap is large enough, and then between the last two times.
+double time_of_overlap(double longest, const std::function<double(double)>& overlap) {
+  constexpr int k_halvings = 16, k_between = 3;
+  if (overlap(longest) >= k_overlap) return HUGE_VAL;
+  for (int i = 0; i < k_halvings && overlap(longest) < k_overlap; ++i) longest *= 0.5;
+  double low = longest, high = 2 * longest;
+  for (int i = 0; i < k_between; ++i) {
+    const double middle = 0.5 * (low + high);
+    (overlap(middle) < k_overlap ? high : low) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -335,18 +350,7 @@ double PlacedLoad::lasting(double from, double to) const {
     all = parallel::global_sum(all);
     return all > 0 ? parallel::global_sum(common) / all : 1.0;
   };
-  // The time of the overlap sought is found by halving the step until the overlap is large enough, and then
-  // between the last two times.
-  constexpr int k_halvings = 16, k_between = 3;
-  double longest = to - from;
-  if (overlap(longest) >= k_overlap) return HUGE_VAL;
-  for (int i = 0; i < k_halvings && overlap(longest) < k_overlap; ++i) longest *= 0.5;
-  double low = longest, high = 2 * longest;
-  for (int i = 0; i < k_between; ++i) {
-    const double middle = 0.5 * (low + high);
-    (overlap(middle) < k_overlap ? high : low) = middle;
-  }
-  return low;
+  return time_of_overlap(to - from, overlap);
 }
 
 std::size_t PlacedLoad::bytes() const {

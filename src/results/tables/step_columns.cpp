@@ -243,6 +243,18 @@ void GlobalHistory::add_channel(const std::string& name, std::vector<Reading>& t
   to.push_back({{name + "_film", "W/m2/K"}, reading.film});
 }
 
+namespace {
+
+/// Work, heat and entropy of plastic strain, summed over the steps.
+void add_plastic(const coupling::EnergyAudit& sum, std::vector<Reading>& all) {
+  all.push_back({{"plastic_dissipation", "J"}, sum.plastic_dissipation});
+  all.push_back({{"plastic_work", "J"}, sum.plastic_work});
+  all.push_back({{"hardening_energy", "J"}, sum.hardening()});
+  all.push_back({{"inelastic_entropy", "J/K"}, sum.inelastic_entropy});
+}
+
+}  // namespace
+
 std::vector<Reading> GlobalHistory::all() const {
   // The readings of history.csv in their order, each where the run has what it reads: temperatures, contact,
   // energies of the first law summed over the steps so far, and stability.
@@ -284,12 +296,7 @@ std::vector<Reading> GlobalHistory::all() const {
   if (options_.dynamics || (options_.mechanics && options_.contact))
     add("numerical_dissipation", "J", sum_.numerical);
   if (options_.mechanics) add("viscous_dissipation", "J", sum_.viscous_dissipation);
-  if (options_.plastic) {
-    add("plastic_dissipation", "J", sum_.plastic_dissipation);
-    add("plastic_work", "J", sum_.plastic_work);
-    add("hardening_energy", "J", sum_.hardening());
-    add("inelastic_entropy", "J/K", sum_.inelastic_entropy);
-  }
+  if (options_.plastic) add_plastic(sum_, all);
   if (options_.stability) {
     add("lyapunov", "J", stability_.increment());
     add("lyapunov_mechanical", "J", last_.stability.mechanical);
