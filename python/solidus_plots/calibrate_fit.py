@@ -153,7 +153,7 @@ def fit(search, loss="linear", loss_scale=2.0, start=None, rough=False):
             size = np.where(search.logarithmic, 1.0, np.maximum(np.abs(x), 1e-300))
             enough = (ROUGH if rough else 1) * max(SMALL_GAIN * 2 * value / max(n, 1), NEGLIGIBLE)
             if np.all(np.abs(step) <= SMALL_STEP * size) or promise <= enough:
-                if failed == 0 and damping > LEAST_DAMPING:
+                if failed == 0 and damping > LEAST_DAMPING and not rough:
                     damping /= 10  # along a valley it is the damping that makes steps short
                     continue
                 if fresh or rough or np.all(step == 0):
