@@ -158,6 +158,8 @@ const Section<CaseSpec>& case_keys() {
     s.sections("profile", &CaseSpec::profiles, profile_keys());
     s.section("criteria", &CaseSpec::criteria, criteria_keys());
     s.sections("die_life", &CaseSpec::die_lives, die_life_keys());
+    s.sections("jet", &CaseSpec::jets, jet_keys());
+    s.sections("shot_sleeve", &CaseSpec::shot_sleeves, shot_sleeve_keys());
     s.section("feeding", &CaseSpec::feeding, feeding_keys());
     s.section("gas", &CaseSpec::gas, gas_keys());
     s.section("filling", &CaseSpec::filling, filling_keys());

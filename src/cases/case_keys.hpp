@@ -35,6 +35,8 @@ Section<ProbeSpec> probe_keys();
 Section<ProfileSpec> profile_keys();
 Section<CriteriaSpec> criteria_keys();
 Section<DieLifeSpec> die_life_keys();
+Section<JetSpec> jet_keys();
+Section<ShotSleeveSpec> shot_sleeve_keys();
 Section<FeedingSpec> feeding_keys();
 Section<GasSpec> gas_keys();
 Section<FillingSpec> filling_keys();

@@ -13,6 +13,7 @@
 #include "cases/feeding_spec.hpp"
 #include "cases/filling_spec.hpp"
 #include "cases/friction_spec.hpp"
+#include "cases/jet_spec.hpp"
 #include "cases/life_spec.hpp"
 #include "cases/load_spec.hpp"
 #include "cases/travel_spec.hpp"
@@ -141,7 +142,7 @@ struct MeshSpec {
   std::vector<MeshLayersSpec> layers;
   int refine = 0;            ///< how often all edges are halved (mesh/refinement/refine.hpp)
   std::string refined_skin;  ///< "curved" or "flat": where new nodes of the skin lie
-  bool conforming = false;  ///< bodies that touch share nodes, of STEP, BREP, IGES
+  bool conforming = false;   ///< bodies that touch share nodes, of STEP, BREP, IGES
   std::vector<MeshSizeSpec> sizes;
   int way = 0;  ///< of meshing solids and skins: the only one that is tried, from one; 0: one after the other
   std::optional<MouldBlockSpec> mould;
@@ -406,7 +407,9 @@ struct CaseSpec {
   std::vector<ProbeSpec> probes;
   std::vector<ProfileSpec> profiles;
   CriteriaSpec criteria;
-  std::vector<DieLifeSpec> die_lives;  ///< bodies whose fatigue is followed
+  std::vector<DieLifeSpec> die_lives;  ///< bodies whose fatigue, wear or soldering is followed
+  std::vector<JetSpec> jets;           ///< thermal_conditions has their films
+  std::vector<ShotSleeveSpec> shot_sleeves;
   FeedingSpec feeding;
   GasSpec gas;
   std::optional<FillingSpec> filling;  ///< absent: the mould is full at the start

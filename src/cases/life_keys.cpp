@@ -1,4 +1,4 @@
-/// Keys of [[die_life]]: fatigue of a body from shot to shot.
+/// Keys of [[die_life]]: fatigue, wear and soldering of a body from shot to shot.
 #include "cases/case_keys.hpp"
 
 namespace solidus::cases {
@@ -7,16 +7,18 @@ Section<DieLifeSpec> die_life_keys() {
   using D = DieLifeSpec;
   Section<D> s(
       "die_life",
-      "Thermal fatigue of a die: its range of strain in every shot, and how many shots it bears until "
-      "its skin cracks. The constants are yours: no card has any. Where the body only conducts heat, "
-      "the range is that of a skin that is held completely, an upper bound.");
+      "Life of a die: its range of strain in every shot and how many shots it bears until its skin cracks; "
+      "how many until it is worn to a depth; how long it is hot enough in a shot for metal to stick to it. "
+      "The constants are yours: no card has any. Where the body only conducts heat, the range of strain is "
+      "that of a skin that is held completely, an upper bound.");
   // Which body, by which law, and then the constants of that law.
-  s.key("body", &D::body).doc("The body whose fatigue is followed: a group of the mesh.");
+  s.key("body", &D::body).doc("The body that is followed: a group of the mesh.");
   s.choice("law", &D::law,
            {{"coffin_manson", D::Law::coffin_manson,
              "half the range of strain = (strength - mean stress)/modulus (2N)^strength_exponent + ductility "
              "(2N)^ductility_exponent: Basquin, Coffin and Manson, Morrow"},
-            {"table", D::Law::table, "cycles by the range of strain, `cycles`"}})
+            {"table", D::Law::table, "cycles by the range of strain, `cycles`"},
+            {"none", D::Law::none, "no fatigue: wear or soldering alone"}})
       .initially("coffin_manson")
       .doc("How many cycles N a range of strain is borne.");
   s.quantity("fatigue_strength", &D::strength, "Pa")
@@ -55,6 +57,18 @@ Section<DieLifeSpec> die_life_keys() {
   s.key("source", &D::source)
       .initially("")
       .doc("Where the constants come from; the log of the run says it beside the life.");
+  // Limits of use besides fatigue.
+  s.quantity("worn_depth", &D::worn_depth, "m")
+      .positive()
+      .doc(
+          "The depth at which the die is worn out: fields `shot_wear`, the depth that a shot wears, and "
+          "`shots_until_worn`. Needs [contact.wear] on a [[contact]] of the body.");
+  s.quantity("soldering_temperature", &D::soldering_temperature, "K")
+      .positive()
+      .doc(
+          "Temperature of the die above which the casting sticks to it: field `soldering_time`, the time in "
+          "a "
+          "shot for which a place is hotter.");
   s.place(&D::where);
   return s;
 }

@@ -1,4 +1,4 @@
-/// How long a die bears its shots, as the case gives it.
+/// How long a die bears its shots and up to which limits it is used, as the case gives it.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace solidus::cases {
 
-/// The fatigue of one body; setup/criteria_input.hpp makes a criteria::FatigueLaw of it.
+/// Life of one body; setup/criteria_input.hpp makes a criteria::FatigueLaw and criteria::DieLimits of it.
 struct DieLifeSpec {
-  enum class Law { coffin_manson, table };
+  enum class Law { coffin_manson, table, none };
   std::string body;  ///< group of the mesh
   Law law = Law::coffin_manson;
   double strength = 0, strength_exponent = 0;    ///< [Pa], below zero
@@ -20,6 +20,8 @@ struct DieLifeSpec {
   double mean_stress = 0;                        ///< [Pa]
   Function cycles;                               ///< of the range of strain
   std::string source;                            ///< of the constants
+  std::optional<double> worn_depth;              ///< at which it is worn out [m]; absent: not asked
+  std::optional<double> soldering_temperature;   ///< [K]; absent: not asked
   SourceLocation where;
 };
 

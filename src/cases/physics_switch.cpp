@@ -76,6 +76,17 @@ void take_out_of_contacts(Value& document, Removal& removal) {
   }
 }
 
+/// Wear of dies goes, and with it a [[die_life]] that asks for nothing else.
+void take_out_of_dies(Value& document, Removal& removal) {
+  Value* dies = document.find("die_life");
+  if (dies == nullptr || !dies->is_list()) return;
+  for (Value& die : dies->items())
+    removal.key(die, "worn_depth", fmt::format("die_life '{}'", text_of(die, "body")));
+  removal.items(document, "die_life", [](const Value& die) {
+    return text_of(die, "law") == "none" && die.find("soldering_temperature") == nullptr;
+  });
+}
+
 void take_out_of_probes(Value& document, Removal& removal) {
   // A difference goes with either of its probes, so that names are collected.
   std::set<std::string> gone;
@@ -132,6 +143,7 @@ std::string switch_physics(Value& document, Physics physics) {
   for (const char* section : {"mechanics", "dynamics", "coupling"}) removal.section(section);
   removal.items(document, "mechanical_condition", [](const Value&) { return true; });
   take_out_of_contacts(document, removal);
+  take_out_of_dies(document, removal);
   // Keys of bodies, times and probes that mean nothing without mechanics.
   if (Value* bodies = document.find("body"); bodies != nullptr && bodies->is_list())
     for (Value& body : bodies->items()) {

@@ -151,8 +151,13 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   p.committed.poured = p.committed.time;
   if (criteria_ == nullptr) return;
   const criteria::CriterionInput start{0, p.committed.heat, p.committed.mechanics};
-  p.committed.criteria = stage.begins_shot || p.stage == 0 ? criteria_->initial(start)
-                                                           : criteria_->restart(p.committed.criteria, start);
+  // What a die bears is counted from shot to shot, all else from the first pour of each of them.
+  if (stage.begins_shot && stage.shot > 1)
+    p.committed.criteria = criteria_->next_shot(p.committed.criteria, start);
+  else if (stage.begins_shot || p.stage == 0)
+    p.committed.criteria = criteria_->initial(start);
+  else
+    p.committed.criteria = criteria_->restart(p.committed.criteria, start);
 }
 
 void Simulation::grow(Progress& p) {

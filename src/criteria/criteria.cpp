@@ -13,8 +13,14 @@ Criteria::NodalFractions Criteria::phases_of(const CriterionInput& moment) const
   return {phase_->solid_fraction(moment.heat), phase_->plateau_share(moment.heat)};
 }
 
+Criteria::NodalFractions Criteria::present(const CriterionInput& moment) const {
+  NodalFractions all = phases_of(moment);
+  if (wear_) all.wear = wear_();
+  return all;
+}
+
 CriteriaState Criteria::initial(const CriterionInput& start) const {
-  const NodalFractions phases = phases_of(start);
+  const NodalFractions phases = present(start);
   const CriterionInput whole = phases.of(start);
   CriteriaState state;
   for (const auto& criterion : list_) state.records.push_back(criterion->initial(whole));
@@ -31,10 +37,20 @@ CriteriaState Criteria::restart(const CriteriaState& before, const CriterionInpu
   return state;
 }
 
+CriteriaState Criteria::next_shot(const CriteriaState& before, const CriterionInput& start) const {
+  assert(before.records.size() == list_.size());
+  const NodalFractions phases = phases_of(start);
+  const CriterionInput whole = phases.of(start);
+  CriteriaState state;
+  for (std::size_t i = 0; i < list_.size(); ++i)
+    state.records.push_back(list_[i]->next_shot(before.records[i], whole));
+  return state;
+}
+
 void Criteria::step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state) {
   assert(state.records.size() == list_.size());
   const double start = processes::wall_time();
-  const NodalFractions before = phases_of(old), after = phases_of(next);
+  const NodalFractions before = phases_of(old), after = present(next);
   const CriterionInput from = before.of(old), to = after.of(next);
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i]->step(from, to, state.records[i]);
   seconds_ += processes::wall_time() - start;

@@ -1,7 +1,9 @@
 /// The list of all criteria of a run.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "criteria/criterion.hpp"
@@ -18,12 +20,17 @@ class Criteria {
   bool empty() const { return list_.empty(); }
   /// Goes on with criteria of the same kinds for a mesh that has more elements.
   void replace(Criteria by);
+  /// Gives criteria the wear of the present state of contact with every step (CriterionInput::wear).
+  using Wear = std::function<std::vector<double>()>;
+  void follow_wear(Wear wear) { wear_ = std::move(wear); }
   /// Hands on to each criterion how long plates take in the moulds (Criterion::know_plates).
   void know_plates(std::span<const PlateTimes> plates);
 
   CriteriaState initial(const CriterionInput& start) const;
   /// The same where other castings come while some stay (Criterion::restart).
   CriteriaState restart(const CriteriaState& before, const CriterionInput& start) const;
+  /// The same where another shot begins (Criterion::next_shot).
+  CriteriaState next_shot(const CriteriaState& before, const CriterionInput& start) const;
   /// Advances all criteria over a step, as Criterion::step does. `state` is that of t_n and becomes that of
   /// t_{n+1}. Collective.
   void step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state);
@@ -39,16 +46,19 @@ class Criteria {
  private:
   /// Nodal solid fractions and plateau shares at a moment, from the thermal phase.
   struct NodalFractions {
-    std::vector<double> solid_fraction, plateau_share;
+    std::vector<double> solid_fraction, plateau_share, wear = {};
     CriterionInput of(const CriterionInput& moment) const {
-      return {moment.time, moment.heat, moment.mechanics, solid_fraction, plateau_share};
+      return {moment.time, moment.heat, moment.mechanics, solid_fraction, plateau_share, wear};
     }
   };
   NodalFractions phases_of(const CriterionInput& moment) const;
+  /// The same with the wear of the present state of contact.
+  NodalFractions present(const CriterionInput& moment) const;
 
   const heat::ThermalPhase* phase_;
   std::vector<std::unique_ptr<Criterion>> list_;
   std::vector<PlateTimes> plates_;
+  Wear wear_;  ///< empty: nothing wears
   double seconds_ = 0;
 };
 

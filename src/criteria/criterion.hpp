@@ -25,7 +25,10 @@ struct CriterionInput {
   /// heat::ThermalPhase::plateau_share: the share of isothermal changes of any material that is done at their
   /// nodes. Empty without one. Criteria fills it in.
   std::span<const double> plateau_share = {};
-  /// The same of a node; one without any such change.
+  /// Depth of wear by contact at this moment [m], [local node], of owned nodes; empty where nothing wears,
+  /// and in Criterion::fill. Criteria fills it in.
+  std::span<const double> wear = {};
+  /// The same as plateau_share of a node; one without any such change.
   double plateau_at(std::size_t node) const { return plateau_share.empty() ? 1.0 : plateau_share[node]; }
 };
 
@@ -58,6 +61,11 @@ class Criterion {
   /// The record where other castings come while some stay: as at the start, with what is to be kept of the
   /// record before. Collective.
   virtual CriterionRecord restart(const CriterionRecord& /*before*/, const CriterionInput& start) const {
+    return initial(start);
+  }
+  /// The record where another shot begins, of a record at the end of the one before: as at the start, with
+  /// what is to be kept of dies. Collective.
+  virtual CriterionRecord next_shot(const CriterionRecord& /*before*/, const CriterionInput& start) const {
     return initial(start);
   }
   /// A step from `old` to `next` was committed: brings the record from t_n to t_{n+1}. Phases that the

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "criteria/criterion.hpp"
+#include "criteria/die_limits.hpp"
 #include "criteria/fatigue_law.hpp"
 #include "criteria/feeding_graph.hpp"
 #include "heat/thermal_phase.hpp"
@@ -43,6 +44,8 @@ struct CriterionContext {
   std::vector<std::string> names = {};
   /// Fatigue of dies, [body]; empty: none is followed.
   std::vector<std::optional<FatigueLaw>> fatigue = {};
+  /// Limits of wear and soldering of dies, [body]; empty: none are followed.
+  std::vector<DieLimits> die_limits = {};
 };
 
 class CriterionKind {

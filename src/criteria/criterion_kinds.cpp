@@ -1,6 +1,7 @@
 /// The criteria that every program has, in the order of the reference page.
 #include "criteria/criterion_kind.hpp"
 #include "criteria/die_life.hpp"
+#include "criteria/die_wear.hpp"
 #include "criteria/feeding.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/gas_pores.hpp"
@@ -9,6 +10,7 @@
 #include "criteria/pools.hpp"
 #include "criteria/quantities.hpp"
 #include "criteria/resolution.hpp"
+#include "criteria/soldering.hpp"
 #include "criteria/strain_criteria.hpp"
 
 namespace solidus::criteria {
@@ -94,6 +96,18 @@ struct DieLifeKind {
   std::unique_ptr<Criterion> make(const CriterionContext& c) const { return DieLife::make(c); }
 };
 
+/// Wear of dies from shot to shot.
+struct DieWearKind {
+  static constexpr auto fields = criteria::fields::k_of_die_wear;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const { return DieWear::make(c); }
+};
+
+/// Dies that are hot enough for metal to stick to them.
+struct SolderingKind {
+  static constexpr auto fields = criteria::fields::k_of_soldering;
+  std::unique_ptr<Criterion> make(const CriterionContext& c) const { return Soldering::make(c); }
+};
+
 }  // namespace
 
 std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
@@ -108,6 +122,8 @@ std::vector<std::unique_ptr<const CriterionKind>>& criterion_kinds() {
     all.push_back(std::make_unique<CriterionKindOf<MushStrainKind>>());
     all.push_back(std::make_unique<CriterionKindOf<LocalPropertiesKind>>());
     all.push_back(std::make_unique<CriterionKindOf<DieLifeKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<DieWearKind>>());
+    all.push_back(std::make_unique<CriterionKindOf<SolderingKind>>());
     return all;
   }();
   return kinds;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "criteria/die_nodes.hpp"
 #include "criteria/quantities.hpp"
 #include "criteria/strain_lanes.hpp"
 #include "numbers/index_casts.hpp"
@@ -25,6 +26,12 @@ double equivalent(const double* a, const double* b) {
   return std::sqrt(2.0 / 3.0 * dot(e, e));
 }
 
+std::vector<char> tiring_bodies(const CriterionContext& context) {
+  std::vector<char> bodies;
+  for (const std::optional<FatigueLaw>& law : context.fatigue) bodies.push_back(law.has_value() ? 1 : 0);
+  return bodies;
+}
+
 }  // namespace
 
 std::unique_ptr<DieLife> DieLife::make(const CriterionContext& context) {
@@ -34,25 +41,19 @@ std::unique_ptr<DieLife> DieLife::make(const CriterionContext& context) {
 }
 
 DieLife::DieLife(const CriterionContext& context)
-    : mesh_(context.mesh), laws_(context.fatigue), body_(context.mesh.x.size(), -1), ghosts_(context.mesh) {
+    : mesh_(context.mesh),
+      laws_(context.fatigue),
+      body_(die_nodes(context.mesh, tiring_bodies(context))),
+      ghosts_(context.mesh) {
   for (const material::Material& m : context.materials) {
     expansion_.push_back(m.expansion);
     poisson_.push_back(m.poisson_ratio);
     reference_.push_back(m.expansion_reference);
   }
-  // A node that two such bodies share belongs to the first of them; owners hold all elements of a node.
-  std::vector<double> owner(mesh_.x.size(), -1.0);
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     const std::optional<FatigueLaw>& law = laws_[as_size(block.body)];
-    if (!law) continue;
-    if (law->deforms) blocks_.push_back({ElementStrain(mesh_, block, context.kind), &block});
-    for (const Index node : block.nodes) {
-      double& of_node = owner[as_size(node)];
-      if (of_node < 0 || block.body < of_node) of_node = block.body;
-    }
+    if (law && law->deforms) blocks_.push_back({ElementStrain(mesh_, block, context.kind), &block});
   }
-  ghosts_.update(owner, 1);
-  for (std::size_t i = 0; i < owner.size(); ++i) body_[i] = static_cast<int>(owner[i]);
 }
 
 /// The strain at the nodes of bodies that deform: the mean of the elements around by their volumes.
@@ -98,7 +99,11 @@ CriterionRecord DieLife::initial(const CriterionInput& start) const {
   return record;
 }
 
-CriterionRecord DieLife::restart(const CriterionRecord& before, const CriterionInput& start) const {
+CriterionRecord DieLife::restart(const CriterionRecord& before, const CriterionInput& /*start*/) const {
+  return before;
+}
+
+CriterionRecord DieLife::next_shot(const CriterionRecord& before, const CriterionInput& start) const {
   CriterionRecord record = initial(start);
   for (std::size_t node = 0; node < mesh_.x.size(); ++node)
     record.columns[k_last].values[node] = present_range(before, node);

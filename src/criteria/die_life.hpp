@@ -35,8 +35,10 @@ class DieLife : public Criterion {
   explicit DieLife(const CriterionContext& context);
 
   CriterionRecord initial(const CriterionInput& start) const override;
-  /// Another shot begins: the range of the one before is kept.
+  /// The shot goes on with further castings.
   CriterionRecord restart(const CriterionRecord& before, const CriterionInput& start) const override;
+  /// The range of the shot before is kept.
+  CriterionRecord next_shot(const CriterionRecord& before, const CriterionInput& start) const override;
   void step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) override;
   std::span<const quantities::Quantity* const> fields() const override;
   /// Fills the range of strain of the last complete shot or of the present one, whichever is larger.

@@ -18,6 +18,7 @@
 #include "setup/deposition.hpp"
 #include "setup/dynamics_input.hpp"
 #include "setup/heat_input.hpp"
+#include "setup/jet_input.hpp"
 #include "setup/mesh_section.hpp"
 #include "setup/rigid_surface_input.hpp"
 #include "setup/rotation_input.hpp"
@@ -420,6 +421,7 @@ void check_case(const cases::CaseSpec& spec) {
   check_conditions(spec);
   check_rotation(spec);
   check_dies(spec);
+  check_shot_sleeves(spec);
   check_sources(spec);
   check_depositions(spec);
   check_contacts(spec);

@@ -10,6 +10,7 @@
 #include "cases/stage_input.hpp"
 #include "input/keys.hpp"
 #include "setup/case_layers.hpp"
+#include "setup/jet_input.hpp"
 #include "system/log.hpp"
 #include "system/version.hpp"
 
@@ -91,6 +92,7 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   cases::case_keys().assign(result.spec, result.document);
   // Stages first, since conditions refer to them; then checks, then what follows from the whole.
   cases::resolve_stages(result.spec);
+  add_jets(result.spec);
   check_case(result.spec);
   cases::vary_conditions(result.spec);
   cases::decide_physics(result.spec);

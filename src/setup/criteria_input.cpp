@@ -12,8 +12,11 @@
 
 #include "cases/case_materials.hpp"
 #include "cases/roles.hpp"
+#include "contact/nodal_wear.hpp"
+#include "contact/pair.hpp"
 #include "criteria/criteria.hpp"
 #include "criteria/criterion_kind.hpp"
+#include "criteria/die_nodes.hpp"
 #include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
 #include "setup/cast_bodies.hpp"
@@ -139,8 +142,62 @@ std::vector<std::optional<criteria::FatigueLaw>> fatigue_laws(const cases::CaseS
   std::vector<std::optional<criteria::FatigueLaw>> laws(spec.die_lives.empty() ? 0 : spec.bodies.size());
   for (const cases::DieLifeSpec& d : spec.die_lives)
     for (std::size_t b = 0; b < laws.size(); ++b)
-      if (spec.bodies[b].mesh_group() == d.body) laws[b] = fatigue_law(spec, d, spec.bodies[b]);
+      if (spec.bodies[b].mesh_group() == d.body && d.law != cases::DieLifeSpec::Law::none)
+        laws[b] = fatigue_law(spec, d, spec.bodies[b]);
   return laws;
+}
+
+/// Whether a surface that wears has nodes of a body. Collective.
+bool wears(const cases::CaseSpec& spec, const mesh::Mesh& mesh, std::size_t body) {
+  std::vector<char> followed(spec.bodies.size(), 0);
+  followed[body] = 1;
+  const std::vector<int> of_body = criteria::die_nodes(mesh, followed);
+  bool here = false;
+  for (const cases::ContactSpec& c : spec.contacts) {
+    if (!c.wear) continue;
+    // The slave loses what the master does not; of two surfaces without roles either may be the slave.
+    std::vector<std::string> sides;
+    if (!c.surfaces.empty() || c.wear->master_share < 1) sides.push_back(c.sides()[0]);
+    if (!c.surfaces.empty() || c.wear->master_share > 0) sides.push_back(c.sides()[1]);
+    for (const std::string& side : sides)
+      if (const auto found = mesh.surfaces.find(side); found != mesh.surfaces.end())
+        here = here || std::ranges::any_of(found->second.nodes,
+                                           [&](Index node) { return of_body[as_size(node)] >= 0; });
+  }
+  return parallel::any_process(here);
+}
+
+/// The limits of each body, in the order of the case's bodies. Throws InputError. Collective.
+std::vector<criteria::DieLimits> die_limits(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<criteria::DieLimits> limits(spec.die_lives.empty() ? 0 : spec.bodies.size());
+  for (const cases::DieLifeSpec& d : spec.die_lives)
+    for (std::size_t b = 0; b < limits.size(); ++b) {
+      if (spec.bodies[b].mesh_group() != d.body) continue;
+      limits[b] = {d.worn_depth, d.soldering_temperature};
+      if (d.worn_depth && !wears(spec, mesh, b))
+        throw InputError(d.where, fmt::format("[[die_life]] of '{}': no contact wears this body", d.body),
+                         "[contact.wear] on a [[contact]] with a surface of the body: master_share of the "
+                         "master, the rest of the slave");
+    }
+  return limits;
+}
+
+/// The depth of wear of all pairs at the end of their step, [local node].
+std::vector<double> wear_of(const mesh::Mesh& mesh, const std::vector<contact::ContactPair*>& pairs) {
+  std::vector<double> depth(mesh.x.size(), 0.0);
+  for (const contact::ContactPair* pair : pairs) contact::take_wear(pair->view(), depth);
+  return depth;
+}
+
+/// A [[die_life]] asks for something, which the analysis has.
+void check_limits(const cases::CaseSpec& spec, const cases::DieLifeSpec& d) {
+  const auto refuse = [&](const std::string& what, const std::string& allowed) {
+    throw InputError(d.where, fmt::format("[[die_life]] of '{}': {}", d.body, what), allowed);
+  };
+  if (d.law == cases::DieLifeSpec::Law::none && !d.worn_depth && !d.soldering_temperature)
+    refuse("it asks for nothing", "a law of fatigue, worn_depth or soldering_temperature");
+  if (d.worn_depth && !spec.has_mechanics())
+    refuse("wear in an analysis of heat alone", "physics = \"thermomechanical\", or no worn_depth");
 }
 
 }  // namespace
@@ -171,6 +228,8 @@ void check_die_lives(const cases::CaseSpec& spec) {
       refuse("no criteria of heat are followed",
              "a transient run with heat, and follow = true in [criteria]");
     if (!spec.depositions.empty()) refuse("not with bodies that grow yet", "a case without [[deposition]]");
+    check_limits(spec, d);
+    if (d.law == cases::DieLifeSpec::Law::none) continue;
     if (d.law == cases::DieLifeSpec::Law::coffin_manson) {
       if (d.mean_stress >= d.strength) refuse("its mean stress breaks it", "below fatigue_strength");
       continue;
@@ -212,8 +271,11 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
       .feeding_options = feeding_options(spec, mesh, materials, start),
       .local_laws = laws,
       .names = names_of_bodies(spec),
-      .fatigue = fatigue_laws(spec)};
+      .fatigue = fatigue_laws(spec),
+      .die_limits = die_limits(spec, mesh)};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
+  if (std::ranges::any_of(spec.die_lives, [](const auto& d) { return d.worn_depth.has_value(); }))
+    all->follow_wear([&mesh, pairs = phases.contacts] { return wear_of(mesh, pairs); });
   // A mistake in a criterion's options is told with the place of the section that it belongs to.
   for (const auto& kind : criteria::criterion_kinds()) {
     try {

@@ -12,6 +12,7 @@
 #include "parallel/parallel.hpp"
 #include "setup/field_mapping.hpp"
 #include "setup/filled_mould.hpp"
+#include "setup/jet_input.hpp"
 #include "setup/place_input.hpp"
 #include "system/common_failure.hpp"
 #include "system/log.hpp"
@@ -75,7 +76,7 @@ InitialTemperatures::InitialTemperatures(const cases::CaseSpec& spec,
     }
     const material::EnthalpyCurve curve = materials[b].enthalpy();
     Body& body = bodies_.emplace_back();
-    body.temperature = snapped(given.table.value(0), curve);
+    body.temperature = snapped(temperature_in_die(spec, spec.bodies[b], materials[b]), curve);
     body.enthalpy = curve.upper(body.temperature);
     body.range = {body.temperature, body.temperature};
   }

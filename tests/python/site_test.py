@@ -49,7 +49,7 @@ TASKS = {
     "criteria": ["find hot spots and porosity", "shrinkage porosity Niyama", "where will there be porosity"],
     "customer": ["report for a customer as PDF", "PDF with our logo", "print the results for a customer"],
     "design": ["find the smallest riser", "design risers automatically", "optimise feeders and chills"],
-    "dies": ["cooling channels of a die", "water in a die", "how many shots does a die live", "thermal fatigue of a die"],
+    "dies": ["cooling channels of a die", "water in a die", "how many shots does a die live", "thermal fatigue of a die", "soldering of a die"],
     "enclosure": ["radiation between surfaces", "view factors of a furnace", "parts of a tree radiate to each other"],
     "export": ["residual stress for a structural analysis", "export to Abaqus or CalculiX", "take residual stress to Ansys"],
     "external_laws": ["use my own constitutive law", "MFront law", "my UMAT subroutine"],

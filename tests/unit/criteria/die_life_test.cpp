@@ -77,7 +77,7 @@ class Die {
     move(temperature, strain);
     life_->step({0, heat, mechanics}, {1, heat_, mechanics_}, record_);
   }
-  void next_shot() { record_ = life_->restart(record_, {1, heat_, mechanics_}); }
+  void next_shot() { record_ = life_->next_shot(record_, {1, heat_, mechanics_}); }
   /// Range of strain and shots, which are the same at all nodes.
   std::array<double, 2> values() const {
     std::vector<double> range(mesh_.x.size()), shots(mesh_.x.size());
