@@ -2,6 +2,7 @@
 #include "results/answers/answers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -19,6 +20,7 @@
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
 #include "results/fields/spots.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -78,6 +80,26 @@ std::optional<ValueAt> least_niyama(const mesh::Mesh& mesh, const std::vector<ch
   return least;
 }
 
+/// What a body has lost by feeding, where the run follows it. Collective.
+std::optional<Shrinkage> shrinkage_of(const coupling::Phases& phases, const mesh::Mesh& mesh, int body,
+                                      const FieldSet& fields) {
+  const FieldValues emptied(fields, criteria::fields::k_emptied.name),
+      unfed(fields, criteria::fields::k_unfed_pores.name), gas(fields, criteria::fields::k_gas_pores.name);
+  if (emptied.empty()) return {};
+  // Melt that has risen above its room fills no hole elsewhere, so that each node counts for itself.
+  std::array<double, 4> sums{};
+  for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
+    const double room = phases.heat->storage().volume(i, body);
+    const auto node = as_size(i);
+    sums[0] += room;
+    sums[1] += room * std::max(0.0, emptied[node]);
+    if (!unfed.empty()) sums[2] += room * unfed[node];
+    if (!gas.empty()) sums[3] += room * gas[node];
+  }
+  processes::sum(sums);
+  return Shrinkage{.volume = sums[0], .holes = sums[1], .unfed = sums[2], .of_gas = sums[3]};
+}
+
 double mass_of(const coupling::Phases& phases, const mesh::Mesh& mesh, int body) {
   double volume = 0;
   for (Index i = 0; i < mesh.n_owned_nodes; ++i) volume += phases.heat->storage().volume(i, body);
@@ -107,6 +129,7 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   }
   answer.mass = mass_of(phases, mesh, cast.body);
   answer.least_niyama = least_niyama(mesh, nodes, fields);
+  answer.shrinkage = shrinkage_of(phases, mesh, cast.body, fields);
   // A share that rounding alone keeps from one is solid.
   constexpr double k_rounding = 1e-12;
   const auto before_the_last_pour = [&]() -> std::optional<ValueAt> {

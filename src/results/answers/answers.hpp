@@ -52,6 +52,14 @@ struct Pores {
   std::optional<ErrorBand> error = {};  ///< of the share
 };
 
+/// What a body has lost by feeding with heat alone (criteria/feeding.hpp) [m³], in two dimensions per depth
+/// or revolution.
+struct Shrinkage {
+  double volume = 0;             ///< of the body as poured
+  double holes = 0;              ///< pipe, sinks and cavities
+  double unfed = 0, of_gas = 0;  ///< pores that melt did not feed, and of gas
+};
+
 /// Progress of the freezing of a cast body, and how sound it is.
 struct CastAnswer {
   CastBody cast;
@@ -60,6 +68,7 @@ struct CastAnswer {
   double mass = 0;                           ///< [kg]; in plane strain of a metre of depth
   std::optional<ValueAt> least_niyama = {};  ///< [K^½ s^½/m]
   std::optional<Pores> pores = {};           ///< where any have opened
+  std::optional<Shrinkage> shrinkage = {};   ///< where feeding is followed
   /// When and where its last melt froze [s since pouring]; also of one that left as a solid.
   std::optional<ValueAt> froze = {};
   std::optional<ValueAt> hottest = {};  ///< where it is not solid: temperature of the least solid node [K]

@@ -44,6 +44,10 @@ Json json(const Answers& a) {
     if (cast.there) of_body.add("solid_fraction", cast.solid_fraction).add("mass[kg]", cast.mass);
     if (cast.least_niyama) of_body.add("least_niyama", value_json(*cast.least_niyama, "K^0.5 s^0.5/m"));
     if (cast.pores) of_body.add("pores", pores_json(*cast.pores));
+    if (cast.shrinkage)
+      of_body.add("holes[m3]", cast.shrinkage->holes)
+          .add("unfed_pores[m3]", cast.shrinkage->unfed)
+          .add("gas_pores[m3]", cast.shrinkage->of_gas);
     if (cast.froze) of_body.add("last_melt_froze", value_json(*cast.froze, "s"));
     if (cast.hottest) of_body.add("hottest_melt", value_json(*cast.hottest, "K"));
     castings.add(cast.cast.name, std::move(of_body));

@@ -227,9 +227,19 @@ std::string_view kind_of(const CastBody& cast) {
   return cast.feeds ? "riser" : cast.gates ? "gating" : "casting";
 }
 
-/// How sound a body is, where several are cast: mass, least Niyama, pores.
+/// A volume in a body and its share of it; what is less than a millionth is rounding of the balance.
+std::string volume_in(double volume, double whole, const Formatter& format) {
+  constexpr double k_told = 1e-6;
+  if (!(volume > k_told * whole)) return "none";
+  return fmt::format("{}, {} %", format.volume(volume), digits(100 * volume / whole, 2));
+}
+
+/// How sound a body is, where several are cast: mass, holes, pores, least Niyama.
 std::string soundness(const CastAnswer& cast, const Formatter& format) {
   std::string text = format.mass(cast.mass);
+  if (const std::optional<Shrinkage>& lost = cast.shrinkage)
+    text += fmt::format("; holes {}; pores {}", volume_in(lost->holes, lost->volume, format),
+                        volume_in(lost->unfed + lost->of_gas, lost->volume, format));
   if (cast.least_niyama)
     text += fmt::format("; least Niyama {:.3g} sqrt(K s)/mm {}", 1e-3 * cast.least_niyama->value,
                         format.place(cast.least_niyama->where));

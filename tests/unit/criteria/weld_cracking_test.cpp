@@ -85,5 +85,24 @@ TEST_F(WeldCracking, WireHelps7075ByKouAlone) {
   EXPECT_GT(k_7075_wire.strain, k_7075.strain);
 }
 
+/// Of the pairs of what cracks earlier and what later those that a criterion, high where metal cracks, ranks
+/// as measured.
+int ranked(const std::array<double, 4>& from_early_to_late) {
+  int right = 0;
+  for (std::size_t i = 0; i < from_early_to_late.size(); ++i)
+    for (std::size_t j = i + 1; j < from_early_to_late.size(); ++j)
+      right += from_early_to_late[i] > from_early_to_late[j] ? 1 : 0;
+  return right;
+}
+
+TEST_F(WeldCracking, EachCriterionRanksFiveOfSixPairs) {
+  const std::array<Weld, 4> measured{k_6061, k_6061_wire, k_7075, k_7075_wire};
+  for (double Weld::*criterion : {&Weld::clyne_davies, &Weld::kou, &Weld::shrinkage, &Weld::strain}) {
+    std::array<double, 4> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = measured[i].*criterion;
+    EXPECT_EQ(ranked(values), 5);
+  }
+}
+
 }  // namespace
 }  // namespace solidus::criteria

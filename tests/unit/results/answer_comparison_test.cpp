@@ -81,6 +81,7 @@ TEST(Soundness, IsToldBodyByBodyAndOfThePartsAlone) {
   a.castings[2].froze = ValueAt{150, {}};
   a.castings[0].least_niyama = ValueAt{900, {0.1, 0, 0}};
   a.castings[2].least_niyama = ValueAt{30, {0.2, 0, 0}};
+  a.castings[1].shrinkage = Shrinkage{.volume = 1e-4, .holes = 2e-6, .unfed = 3e-12, .of_gas = 5e-12};
   a.castings[2].pores = Pores{.volume = 1e-5, .share = 0.2, .densest = {0.4, {0.3, 0, 0}}};
   const std::vector<criteria::CriterionResult> found{{"niyama_min", "1", 30, true, {0.2, 0, 0}}};
   const std::string said = text(a, found);
@@ -89,6 +90,7 @@ TEST(Soundness, IsToldBodyByBodyAndOfThePartsAlone) {
   EXPECT_THAT(said,
               HasSubstr("soundness of 'part'                 2 kg; least Niyama 0.9 sqrt(K s)/mm at (100"));
   EXPECT_THAT(said, HasSubstr("pores 10 cm3, 20 %, densest 40 % at (300"));
+  EXPECT_THAT(said, HasSubstr("soundness of 'top'                  1.5 kg; holes 2 cm3, 2 %; pores none\n"));
   EXPECT_THAT(said, HasSubstr("yield                               50 % of what is poured is part"));
   EXPECT_THAT(said, HasSubstr("least Niyama                        0.9 sqrt(K s)/mm at (100, 0, 0) mm"));
 }

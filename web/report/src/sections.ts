@@ -160,11 +160,13 @@ function castings(run: Run, index: number, bench: Workbench): Node_[] {
     const mass = c["mass[kg]"], froze = c.last_melt_froze?.["value[s]"] as number | undefined;
     const margin = c.riser && froze !== undefined ? froze - part : NaN, error = (c.last_melt_froze?.["error[s]"] as number) ?? 0;
     const verdict = Number.isNaN(margin) ? "" : Math.abs(margin) < error ? "too close to tell" : margin > 0 ? `outlived the part by ${duration(margin)}` : `froze ${duration(-margin)} before the part`;
-    const pores = c.pores ? `${short((c.pores["volume[m3]"] as number) * 1e6)} cm³, ${withUnit(c.pores.share_of_casting as number, share)}` : "–";
-    return [name, c.riser ? "riser" : c.gating ? "gating" : "part", mass === undefined ? "–" : `${short(mass)} kg`, cell(c.last_melt_froze, "s", duration), cell(c.least_niyama, root, (v) => withUnit(v, niyama)), pores, verdict];
+    const lost = (key: string): number => (c[key] as number | undefined) ?? 0;
+    const holes = c["holes[m3]"] === undefined ? "–" : `${short(lost("holes[m3]") * 1e6)} cm³`;
+    const pores = c["holes[m3]"] !== undefined ? `${short((lost("unfed_pores[m3]") + lost("gas_pores[m3]")) * 1e6)} cm³` : c.pores ? `${short((c.pores["volume[m3]"] as number) * 1e6)} cm³, ${withUnit(c.pores.share_of_casting as number, share)}` : "–";
+    return [name, c.riser ? "riser" : c.gating ? "gating" : "part", mass === undefined ? "–" : `${short(mass)} kg`, cell(c.last_melt_froze, "s", duration), cell(c.least_niyama, root, (v) => withUnit(v, niyama)), holes, pores, verdict];
   });
   const told = typeof answers?.yield === "number" ? h("p", { class: "hint" }, `${short(100 * answers.yield)} % of what is poured is part.`) : null;
-  return [table(["Body", "", "Mass", "Frozen after", "Least Niyama", "Pores", "Verdict"], rows), told];
+  return [table(["Body", "", "Mass", "Frozen after", "Least Niyama", "Holes", "Pores", "Verdict"], rows), told];
 }
 
 /** A tornado for each answer: from what it falls to what it rises where each datum goes to its ends. */
