@@ -38,6 +38,12 @@ Section<FeedingSpec> feeding_keys() {
           "The fraction of the graphite expansion that the mould resists, so that it feeds the casting; the "
           "rest moves the mould wall. Without it the smallest `rigidity` of the moulds' materials, 1 without "
           "a mould.");
+  s.quantity("wall_movement", &F::wall_movement, "m")
+      .at_least(0)
+      .doc(
+          "The length by which the graphite expansion moves the mould wall at most: what it yields as a "
+          "fraction of a casting then falls with the modulus, volume over skin in contact with other bodies. "
+          "Without it the wall moves by the fraction that mould_rigidity says, whatever the size.");
   s.place(&F::where);
   return s;
 }

@@ -15,6 +15,7 @@ struct FeedingSpec {
   bool moves_heat = false;                   ///< metal that moves takes its heat along
   std::vector<std::string> vented, covered;  ///< groups of the mesh
   std::optional<double> mould_rigidity;      ///< absent: that of the moulds' cards
+  std::optional<double> wall_movement;       ///< of the mould by graphite, at most [m]; absent: no limit
   SourceLocation where;
 };
 

@@ -44,6 +44,7 @@ Feeding::Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnt
       connectivity_(mesh, ghosts_, options.bodies),
       graph_(mesh, kind, options),
       rigidity_(options.mould_rigidity),
+      most_wall_(most_wall(options)),
       body_(mesh.x.size(), -1) {
   // Each body has its feeding law; followed ones also have the volume of their metal by temperature, and the
   // gas that they hold.

@@ -89,6 +89,7 @@ class Feeding : public Criterion {
  private:
   struct Step;
   double room(std::size_t node) const;
+  std::vector<double> most_wall(const FeedingOptions& options) const;
   bool has_gas() const {
     return std::ranges::any_of(gas_, [](const std::optional<GasLaw>& law) { return law.has_value(); });
   }
@@ -142,6 +143,8 @@ class Feeding : public Criterion {
   std::vector<MushLaw> laws_;                       ///< [body]
   std::vector<std::optional<GasLaw>> gas_;          ///< [body]
   double rigidity_;                                 ///< of the mould
+  /// The room that the wall gives way to at most, as a share of that of a body, [body]; empty: no limit.
+  std::vector<double> most_wall_;
   std::vector<int> body_;  ///< [local node]: that of which it holds most among them, else −1
 };
 

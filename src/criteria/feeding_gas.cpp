@@ -40,7 +40,23 @@ double Feeding::wall_yields(std::size_t node, const CriterionInput& old, const C
       expands +=
           change.volume_change * (change.fraction.value(next.heat.temperature[node], next.plateau_at(node)) -
                                   change.fraction.value(old.heat.temperature[node], old.plateau_at(node)));
-  return (1 - material.graphite->feeding_share(rigidity_)) * expands * step.rows(node, k_metal);
+  const double yields =
+      (1 - material.graphite->feeding_share(rigidity_)) * expands * step.rows(node, k_metal);
+  // A wall that has moved by its whole way holds, and all further expansion feeds.
+  if (most_wall_.empty()) return yields;
+  return std::min(yields, std::max(0.0, most_wall_[as_size(body_[node])] - step.rows(node, k_wall)));
+}
+
+/// The movement of the wall over the modulus of each body, its volume over its skin with a wall. Collective.
+std::vector<double> Feeding::most_wall(const FeedingOptions& options) const {
+  std::vector<double> most(options.walled.size(), 0.0);
+  for (std::size_t body = 0; body < most.size(); ++body) {
+    double own = 0;
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) own += storage_.volume(i, static_cast<int>(body));
+    const double volume = parallel::global_sum(own);
+    if (volume > 0) most[body] = options.wall_movement * options.walled[body] / volume;
+  }
+  return most;
 }
 
 /// How gas in mush follows the pressure, g = slope (P − P₀) + what there is of it.

@@ -33,6 +33,10 @@ struct FeedingOptions {
   std::vector<std::string> vented = {};       ///< groups of the mesh that are open; empty: what faces up
   std::vector<std::string> covered = {};      ///< groups of the mesh that are not open
   double mould_rigidity = 1;                  ///< share of the expansion of graphite that feeds
+  /// The length by which graphite moves the wall of the mould at most [m], and the skin of each body that has
+  /// such a wall [body] [m²], in two dimensions as volumes; no skins: no limit.
+  double wall_movement = 0;
+  std::vector<double> walled = {};
   GasOptions gas = {};
   std::set<std::string> touched = {};  ///< surfaces in contact with a mould
   std::set<std::string> cooled = {};   ///< surfaces with a condition of heat

@@ -22,6 +22,7 @@
 #include "setup/cast_bodies.hpp"
 #include "setup/mechanics_input.hpp"
 #include "setup/rotation_input.hpp"
+#include "setup/skin_measures.hpp"
 #include "system/log.hpp"
 
 namespace solidus::setup {
@@ -58,6 +59,40 @@ double mould_rigidity(const cases::CaseSpec& spec, const std::vector<material::M
   return least;
 }
 
+/// The skin that each followed body has against bodies that are not cast, by contacts [body] [m²]. Throws
+/// InputError where there is no iron, and for an iron without such a skin. Collective.
+std::vector<double> walled_skins(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
+                                 const std::vector<material::Material>& materials,
+                                 const std::vector<char>& followed) {
+  const auto cast = [&](int body) { return body >= 0 && followed[as_size(body)] != 0; };
+  const auto iron = [&](std::size_t b) { return followed[b] != 0 && materials[b].graphite; };
+  // Without an iron the key would do nothing.
+  std::vector<double> skins(spec.bodies.size(), 0.0);
+  bool any_iron = false;
+  for (std::size_t b = 0; b < skins.size(); ++b) any_iron = any_iron || iron(b);
+  if (!any_iron)
+    throw InputError(spec.feeding.where, "feeding.wall_movement: nothing that is cast has graphite",
+                     "an iron whose card has [graphite], or no wall_movement");
+  for (const cases::ContactSpec& contact : spec.contacts) {
+    // Of the two sides of a contact that of the casting counts, where the other one is a wall.
+    std::array<SurfaceMeasures, 2> sides;
+    for (std::size_t side = 0; side < 2; ++side)
+      sides[side] = measure_surface(mesh, contact.sides()[side], spec.analysis.kind);
+    for (std::size_t side = 0; side < 2; ++side)
+      if (cast(sides[side].body) && !cast(sides[1 - side].body))
+        skins[as_size(sides[side].body)] += sides[side].area;
+  }
+  // An iron that no contact surrounds has no modulus.
+  for (std::size_t b = 0; b < skins.size(); ++b)
+    if (iron(b) && !(skins[b] > 0))
+      throw InputError(
+          spec.feeding.where,
+          fmt::format("feeding.wall_movement: no mould touches '{}', whose graphite could move it",
+                      spec.bodies[b].name),
+          "a contact or an [[interface]] of it with a mould, or no wall_movement");
+  return skins;
+}
+
 criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                          const std::vector<material::Material>& materials,
                                          const std::vector<InitialTemperatureRange>& start) {
@@ -72,6 +107,10 @@ criteria::FeedingOptions feeding_options(const cases::CaseSpec& spec, const mesh
                                    .gas = {.follow = spec.gas.follow && spec.depositions.empty(),
                                            .content = spec.gas.content,
                                            .ambient_pressure = spec.gas.ambient_pressure}};
+  if (spec.feeding.wall_movement) {
+    options.wall_movement = *spec.feeding.wall_movement;
+    options.walled = walled_skins(spec, mesh, materials, options.bodies);
+  }
   // A surface that feeds is an open one.
   if (options.vented.empty())
     for (const std::string& feeder : spec.criteria.feeders)

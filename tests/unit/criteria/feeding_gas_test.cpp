@@ -126,5 +126,34 @@ TEST(FeedingWithGraphite, ExpansionFeedsWhatTheMouldHolds) {
   EXPECT_LT(holes(nodules), holes(soft));
 }
 
+/// Holes over the room of a nodular iron whose wall moves by 0.25 mm at most in a mould that does not resist
+/// before. No melt contracts: what is left is that of freezing.
+double need_of_riser(double modulus) {
+  FreezingBody unlimited = block(iron(material::Graphite::Form::nodular));
+  criteria::FeedingOptions options;
+  options.mould_rigidity = 0;
+  options.wall_movement = 0.25e-3;
+  double volume = 0;
+  for (Index i = 0; i < unlimited.mesh.n_owned_nodes; ++i) volume += unlimited.storage.volume(i, 0);
+  options.walled = {parallel::global_sum(volume) / modulus};
+  FreezingBody body = block(iron(material::Graphite::Form::nodular), options);
+  freeze_upwards(body);
+  const FeedingTotals t = body.totals();
+  EXPECT_LT(std::abs(t.defect()), 1e-11);
+  EXPECT_LE(t.wall, 1.0001 * 0.25e-3 / modulus * t.room);
+  return (t.pipe + t.sink + t.cavity + t.pores) / t.room;
+}
+
+// S. I. Karsay's rule for nodular iron (docs/theory/graphite.md): below a modulus of some 4 mm a riser as for
+// steel, above 25 mm none, in between a smaller one.
+TEST(FeedingWithGraphite, ThickerIronsNeedLessRiser) {
+  const double graphite = iron(material::Graphite::Form::nodular).graphite->volume_change(), steel = 0.035;
+  const double thin = need_of_riser(4e-3), middle = need_of_riser(8e-3), thick = need_of_riser(25e-3);
+  EXPECT_NEAR(thin, steel, 0.1 * steel);
+  EXPECT_NEAR(middle, steel - graphite + 0.25 / 8, 0.1 * steel);
+  EXPECT_NEAR(thick, steel - graphite + 0.25 / 25, 0.1 * steel);
+  EXPECT_LT(thick, 0);
+}
+
 }  // namespace
 }  // namespace solidus
