@@ -25,6 +25,7 @@ std::vector<Property> Material::properties() const {
   if (liquid_viscosity.max_value() > 0) all.push_back({"twice_shear_viscosity", "Pa s", &liquid_viscosity});
   if (flow)
     for (const Property& property : flow->properties()) all.push_back(property);
+  for (const auto& [key, given] : added) all.push_back({key, given.unit, &given.table});
   return all;
 }
 

@@ -1,6 +1,8 @@
 /// A material: every property a table over absolute temperature, with its source and validity.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +33,12 @@ enum class SpecificHeatAt {
   constant_strain,    ///< at ε = 0: C_v of the monograph (2.49c)
 };
 
+/// A property that its user declares (added_property.hpp).
+struct GivenProperty {
+  std::string unit;  ///< SI
+  Table table;       ///< over absolute temperature
+};
+
 struct Material {
   std::string name, title;
   double density = 0;   ///< ρ of the reference configuration [kg/m³]
@@ -54,6 +62,7 @@ struct Material {
   Casting casting;                   ///< for criteria; no law uses it
   std::optional<Gas> gas;            ///< absent: none is known of
   std::optional<Graphite> graphite;  ///< absent: none precipitates, or the card gives its volume itself
+  std::map<std::string, GivenProperty, std::less<>> added;  ///< by their keys; those that the card gives
 
   std::vector<PropertyNote> notes;
 

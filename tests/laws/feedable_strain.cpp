@@ -1,9 +1,10 @@
-/// A criterion that no file of the sources names: the strain rate that the melt can still feed, after
-/// M. Rappaz, J.-M. Drezet, M. Gremaud, A new hot-tearing criterion, Metall. Mater. Trans. A 30 (1999)
-/// 449–455.
+/// A criterion, and a key of material cards, that no file of the sources names: the strain rate that the melt
+/// can still feed, after M. Rappaz, J.-M. Drezet, M. Gremaud, A new hot-tearing criterion, Metall. Mater.
+/// Trans. A 30 (1999) 449–455.
 ///
 /// Melt flows through the mush towards its root against a drop of pressure. It replaces what shrinkage and
-/// straining across the front take away, from the root (f_s = 0.98, where grains bridge) to the liquidus:
+/// straining across the front take away, from the root (f_s = 0.98 unless the card
+/// says otherwise, where grains bridge) to the liquidus:
 ///
 ///   ΔP = 180 μ/(λ₂² G) [ v_T β A + (1 + β) ε̇ B/G ]
 ///   A = ∫ f_s²/(1 − f_s)² dT,   B = ∫ f_s² F_s/(1 − f_s)³ dT,   F_s(T) = ∫ f_s dT from the root
@@ -21,6 +22,7 @@
 #include "criteria/criterion_kind.hpp"
 #include "criteria/freezing.hpp"
 #include "criteria/quantities.hpp"
+#include "material/added_property.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::criteria {
@@ -44,6 +46,13 @@ constexpr quantities::Quantity k_feedable_strain_rate{
     .pictured = true,
     .shown_as = {"1/s", "1/s"}};
 
+const material::AddProperty k_bridged(
+    {.key = "bridged_fraction",
+     .unit = "1",
+     .least = 0.5,
+     .greatest = 1,
+     .doc = "Solid fraction at which grains bridge and no melt passes any more; 0.98 where it is left out."});
+
 /// What a material says of the mush.
 struct Mush {
   bool known = false;
@@ -57,12 +66,13 @@ Mush mush_of(const material::Material& material) {
   Mush mush{true, -freezing->volume_change / (1 + freezing->volume_change), *material.casting.melt_viscosity,
             material.casting.critical_pressure_drop};
   constexpr int k_pieces = 2000;
-  constexpr double k_bridged = 0.98;
   const double solidus = freezing->fraction.solidus(), range = freezing->fraction.liquidus() - solidus;
+  const Table* const given = k_bridged.of(material);
+  const double bridged = given != nullptr ? given->value(solidus) : 0.98;
   double taken = 0;  // F_s
   for (int i = 0; i < k_pieces; ++i) {
     const double f = freezing->fraction.value(solidus + (i + 0.5) * range / k_pieces), dt = range / k_pieces;
-    if (f > k_bridged) continue;
+    if (f > bridged) continue;
     taken += f * dt;
     mush.a += f * f / ((1 - f) * (1 - f)) * dt;
     mush.b += f * f * taken / std::pow(1 - f, 3) * dt;

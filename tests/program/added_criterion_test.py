@@ -1,4 +1,5 @@
-"""A criterion in one file of the tests, which no source, Python or page names, is wherever criteria are."""
+"""A criterion with its key of material cards, in one file of the tests that no source, Python or page names, is wherever
+criteria and keys are."""
 
 import base64
 import csv
@@ -14,6 +15,7 @@ from program import ProgramTest, solidus
 from solidus_casting import Results
 
 NAME, LABEL = "feedable_strain_rate", "Strain rate that melt feeds"
+KEY = "bridged_fraction"
 CASE = """
 title = "A plate of a freezing alloy on a chill"
 [analysis]
@@ -83,7 +85,9 @@ class AddedCriterion(ProgramTest):
         for part in ("src", "python", "web/report/src"):
             for file in (program.SOURCES / part).rglob("*.*"):
                 if file.is_file() and file.suffix in (".cpp", ".hpp", ".py", ".ts", ".json"):
-                    self.assertNotIn(NAME, file.read_text(encoding="utf-8"), file)
+                    text = file.read_text(encoding="utf-8")
+                    self.assertNotIn(NAME, text, file)
+                    self.assertNotIn(KEY, text, file)
 
     def test_check_and_explain_know_it(self):
         self.assertIn(f"called {LABEL}, shown in 1/s", self.done("explain", "--fields", NAME))
@@ -91,6 +95,36 @@ class AddedCriterion(ProgramTest):
         self.assertEqual(checked.returncode, 0)
         self.assertIn(f"the probe 'in the chill' takes the {NAME} of 'lower', of 'steel_mould', which does not freeze",
                       checked.stderr)
+
+    def of_card(self, value, folder="out"):
+        """The least value where the card gives the key, or leaves it out."""
+        given = f"{KEY} = {value}\n" if value else ""
+        self.write("own.toml", f'like = "aluminium_alsi7mg"\n{given}')
+        self.write("case.toml", CASE.replace('"aluminium_alsi7mg"', '"own.toml"'))
+        return self.run_to(folder)[1]["criteria"][f"{NAME}_min[1/s]"]
+
+    def test_a_card_gives_the_key_that_the_criterion_declares(self):
+        left_out = self.of_card("")
+        self.assertEqual(self.of_card('{ value = "0.98", source = "as it is left out" }'), left_out)
+        self.assertGreater(self.of_card("0.9"), left_out)
+        self.assertIn("grains bridge", self.done("explain", "--material", KEY))
+
+    def test_the_key_is_checked_as_any_other(self):
+        self.of_card("0.9")
+        for value in ("2", '"0.9 m"', '"soon"'):
+            self.write("own.toml", f'like = "aluminium_alsi7mg"\n{KEY} = {value}\n')
+            refused = solidus("check", ".", cwd=self.folder)
+            self.assertEqual(refused.returncode, 1)
+            self.assertRegex(refused.stderr, f"own.toml:2.*{KEY}")
+        self.write("own.toml", f'like = "aluminium_alsi7mg"\n{KEY[:-1]} = 0.9\n')
+        self.assertIn(f"'{KEY}'", solidus("check", ".", cwd=self.folder).stderr)
+
+    def test_a_restart_with_another_value_is_noticed(self):
+        self.of_card("0.9")
+        self.write("own.toml", f'like = "aluminium_alsi7mg"\n{KEY} = 0.95\n')
+        again = solidus("run", ".", "-o", "out", "--restart", "--no-progress", cwd=self.folder)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("material data", again.stderr)
 
     def test_probes_tables_fields_summary_and_terminal_have_it(self):
         text, summary = self.run_to("out")

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "input/document.hpp"
+#include "material/added_property.hpp"
 #include "material/cards/designations.hpp"
 #include "material/cards/external_keys.hpp"
 #include "material/cards/granular_keys.hpp"
@@ -213,6 +214,15 @@ void add_casting(Material& m, const MaterialData& data) {
   if (!casting.source.empty()) m.notes.push_back({"casting", casting.source, 0, 0});
 }
 
+// What the card gives of the properties that their users declare, with the note of each.
+void add_added(Material& m, const MaterialData& data) {
+  for (const AddedProperty& property : added_properties())
+    if (const auto given = data.added.find(std::string(property.key)); given != data.added.end()) {
+      m.added.emplace(given->first, GivenProperty{std::string(property.unit), given->second.table});
+      m.notes.push_back(note_of(given->first, given->second));
+    }
+}
+
 }  // namespace
 
 PropertyNote note_of(std::string property, const Function& f) {
@@ -294,6 +304,7 @@ Material make_material(std::string name, const MaterialData& data) {
   // the liquid is checked against all of them.
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
+  add_added(m, data);
   if (m.gas && !m.gas->source.empty()) m.notes.push_back({"gas", m.gas->source, 0, 0});
   if (m.graphite && !m.graphite->source.empty()) m.notes.push_back({"graphite", m.graphite->source, 0, 0});
   for (const LocalLaw& law : data.local_laws) {

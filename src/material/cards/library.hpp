@@ -58,6 +58,7 @@ struct MaterialData {
   double expansion_reference = 0;  ///< [K]
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::map<std::string, Function> liquid_numbers;  ///< the parameters of the models of the liquid
+  std::map<std::string, Function> added;           ///< material/added_property.hpp
   std::optional<FlowData> plasticity;
   std::optional<ExternalData> external;
   std::optional<GranularData> granular;

@@ -1,7 +1,10 @@
 /// The keys of a material file.
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
+#include "material/added_property.hpp"
 #include "material/cards/external_keys.hpp"
 #include "material/cards/granular_keys.hpp"
 #include "material/cards/library.hpp"
@@ -288,6 +291,21 @@ void elastic_keys(Section<MaterialData>& s) {
       .doc("Temperature at which the strain of the expansion measurement is zero.");
 }
 
+/// Declares what the users of properties have added (added_property.hpp). Throws std::logic_error where the
+/// card has such a key already.
+void added_keys(Section<MaterialData>& s) {
+  for (const AddedProperty& property : added_properties()) {
+    const std::string key(property.key);
+    if (s.info().find(key) != nullptr)
+      throw std::logic_error("the material property '" + key + "': the card has a key of that name");
+    s.function(key, &MaterialData::added, std::string(property.unit))
+        .of({Argument::temperature})
+        .range(property.least, property.greatest)
+        .doc(std::string(property.doc))
+        .required = false;
+  }
+}
+
 Section<MaterialData> material_keys() {
   // The keys of a card on its first level: names, thermal properties, elastic ones, and the sections.
   Section<MaterialData> s("",
@@ -325,6 +343,7 @@ Section<MaterialData> material_keys() {
   s.section("graphite", &MaterialData::graphite, graphite_keys());
   s.sections("local", &MaterialData::local_laws, local_keys());
   s.section("spread", &MaterialData::spread, material_spread_keys());
+  added_keys(s);
   s.place(&MaterialData::where);
   return s;
 }
