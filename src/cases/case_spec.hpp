@@ -219,6 +219,8 @@ struct BodySpec {
   const std::string& mesh_group() const { return group ? *group : name; }
 };
 
+class SourceLaw;  // source_law.hpp
+
 struct ThermalConditionSpec {
   enum class Kind { temperature, flux, film, radiation, source, exothermic };
   /// Whether it acts in the volume of a body, and its group is one.
@@ -232,13 +234,14 @@ struct ThermalConditionSpec {
   Function emissivity;   ///< [1]; or of the surface's temperature
   Function ambient;      ///< [K]
   enum class Sees { ambient, enclosure };
-  Sees sees = Sees::ambient;        ///< of radiation: what the surface sees besides its surroundings
-  Function power;                   ///< [W/m³]
-  double heat = 0;                  ///< of what burns [J/m³]
-  double ignition = 0;              ///< [K]
-  double duration = 0;              ///< of burning [s]
-  Function factor;                  ///< of flux, coefficient, emissivity or power [1]
-  std::vector<std::string> stages;  ///< in which it holds; empty: all
+  Sees sees = Sees::ambient;             ///< of radiation: what the surface sees besides its surroundings
+  std::shared_ptr<const SourceLaw> law;  ///< of a source; gives `power` where the case does not
+  Function power;                        ///< [W/m³]
+  double heat = 0;                       ///< of what burns [J/m³]
+  double ignition = 0;                   ///< [K]
+  double duration = 0;                   ///< of burning [s]
+  Function factor;                       ///< of flux, coefficient, emissivity or power [1]
+  std::vector<std::string> stages;       ///< in which it holds; empty: all
   TimeOrigin clock = TimeOrigin::run;
   SourceLocation where;
 };

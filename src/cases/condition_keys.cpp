@@ -1,5 +1,6 @@
 /// Keys of thermal and mechanical conditions, in the order of the manual.
 #include "cases/case_keys.hpp"
+#include "cases/source_law.hpp"
 
 namespace solidus::cases {
 
@@ -65,10 +66,14 @@ void surface_heat_keys(Section<ThermalConditionSpec>& s) {
 /// Declares the heat that a body releases in its volume, at all times or once.
 void volume_heat_keys(Section<ThermalConditionSpec>& s) {
   using C = ThermalConditionSpec;
+  s.kinds("law", &C::law, source_laws())
+      .initially("given")
+      .when("kind", {"source"})
+      .doc("What the power of the source follows from.");
   s.function("power", &C::power, "W/m3")
       .of({Argument::time})
       .anywhere()
-      .when("kind", {"source"})
+      .when("law", {"given"})
       .doc("Heat released per volume and time.");
   s.quantity("heat", &C::heat, "J/m3")
       .positive()

@@ -27,11 +27,11 @@ class SurfaceHeat {
   SurfaceHeat(heat::SurfaceLaw law, std::vector<mesh::Point> points, double end)
       : law_(std::move(law)), n_(std::max<std::size_t>(points.size(), 1)), end_(end) {
     law_.set_points(std::move(points));
-    law_.set_time(0);
+    law_.set_window(LoadWindow::at(0));
   }
   double operator()(double temperature, double time) {
     time = std::min(time, end_);  // what comes after the run is as at its end
-    if (time != time_) law_.set_time(time_ = time);
+    if (time != time_) law_.set_window(LoadWindow::at(time_ = time));
     if (!law_.placed()) return law_.at(temperature).q;
     double sum = 0;
     for (std::size_t i = 0; i < n_; ++i) sum += law_.at(temperature, i).q;

@@ -2,6 +2,7 @@
 /// left its wall, which takes a search for the nearest face of the master and is therefore asked only of
 /// points that seem to have left.
 #include "contact/contact_report.hpp"
+#include "contact/heat/heat_measures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -155,7 +156,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   }
   // Heat is that of both sides; heat made by friction is taken out of what passes.
   if (pair.heat != nullptr && !temperature.empty()) {
-    const InterfaceHeatFlux heat = pair.heat->term().counted_heat(temperature);
+    const InterfaceHeatFlux heat = counted_heat(pair.heat->points(), temperature);
     s[15] = heat.total[1] - heat.by_friction[1];
     s[16] = heat.total[0];
     s[17] = heat.total[1];

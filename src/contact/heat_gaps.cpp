@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include "contact/heat/heat_measures.hpp"
 #include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::contact {
 
 std::vector<HeatGap> HeatGaps::now() const {
-  return heat_ != nullptr ? heat_->term().gaps() : std::vector<HeatGap>{};
+  return heat_ != nullptr ? gaps_of(heat_->points()) : std::vector<HeatGap>{};
 }
 
 std::vector<HeatGap> HeatGaps::ahead(std::span<const double> displacement, double time) const {
@@ -33,13 +34,13 @@ std::vector<HeatGap> HeatGaps::ahead(std::span<const double> displacement, doubl
 }
 
 void HeatGaps::use(std::span<const HeatGap> gaps) {
-  if (heat_ != nullptr) heat_->term().set_gaps(gaps);
+  if (heat_ != nullptr) set_gaps(gaps, heat_->points());
 }
 
 GapHeat HeatGaps::heat(std::span<const HeatGap> used, std::span<const HeatGap> right,
                        std::span<const double> temperature) const {
   if (heat_ == nullptr) return {};
-  const GapHeat heat = heat_->term().gap_heat(used, right, temperature);
+  const GapHeat heat = gap_heat(heat_->points(), used, right, temperature);
   std::array<double, 2> sums = {heat.passed, heat.misplaced};
   processes::sum(sums);
   return {sums[0], sums[1]};

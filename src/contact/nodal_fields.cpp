@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "contact/contact_report.hpp"
+#include "contact/heat/heat_measures.hpp"
 #include "contact/surfaces/rotation.hpp"
 #include "numbers/index_casts.hpp"
 
@@ -59,10 +60,11 @@ NodalMeans nodal_means_of(const ContactView& pair, std::span<const double> tempe
   const std::optional<FrictionLaw>& friction = pair.law.friction;
   const bool keeps = friction || pair.has_temperature();
   const auto n = as_size(pair.geometry.mesh().n_owned_nodes);
-  const std::vector<double> conductance = pair.heat != nullptr ? pair.heat->term().conductances(temperature)
-                                                               : std::vector<double>(points.size(), 0.0);
+  const std::vector<double> conductance = pair.heat != nullptr
+                                              ? conductances(pair.heat->points(), temperature)
+                                              : std::vector<double>(points.size(), 0.0);
   std::vector<InterfaceHeatFlux> heat(points.size());
-  if (pair.heat != nullptr && !temperature.empty()) heat = pair.heat->term().surface_heat(temperature);
+  if (pair.heat != nullptr && !temperature.empty()) heat = surface_heat(pair.heat->points(), temperature);
   NodalMeans means(n);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactPointState& state = points[as_size(p)];

@@ -52,7 +52,7 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactParam
 
 void ContactPair::activate(bool on) {
   parts_->forces.activate(on);
-  if (ContactHeat* const heat = parts_->heat.of_points()) heat->term().activate(on);
+  if (ContactHeat* const heat = parts_->heat.of_points()) heat->points().interface().active = on;
 }
 
 ContactView ContactPair::view() const {
@@ -83,14 +83,15 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   step.coupled = {};
   // When both phases are solved at once, temperatures enter the return mapping of friction.
   if (pass.simultaneous && heat != nullptr && rubs)
-    step.coupled = {.law = &heat->law(),
+    step.coupled = {.law = &heat->points().interface().law,
                     .time_step = pass.dt,
                     .temperature = {pass.temperature.begin(), pass.temperature.end()},
                     .tool_temperature = tool_temperature(parts.spec, pass.time)};
   if ((rubs || parts.heat.has_temperature()) && !pass.temperature.empty())
     parts.history.find_temperatures(
         pass.temperature,
-        heat != nullptr ? HeatTransferLaw::slave_share(heat->law().slave_resistance()) : 0.5,
+        heat != nullptr ? HeatTransferLaw::slave_share(heat->points().interface().law.slave_resistance())
+                        : 0.5,
         parts.heat.has_temperature(), tool_temperature(parts.spec, step.begun), step);
   // Of an earlier pass of the same step temperatures, internal variables and multipliers go on.
   step.iterate.clear();
@@ -127,7 +128,7 @@ const ContactState& ContactPair::update(std::span<const double> displacement) {
   if (heat != nullptr) {
     // The heat term is filled point by point along with the forces: what it needs of the motion is
     // then at hand.
-    heat->term().set_tool_temperature(tool_temperature(parts.spec, end.time));
+    heat->points().interface().tool_temperature = tool_temperature(parts.spec, end.time);
     heat->clear(points.size());
   }
   // At each point the motion gives forces, these the next history, wear and heat.
@@ -179,10 +180,11 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
 
 std::size_t ContactPair::bytes() const {
   const PairParts& p = *parts_;
-  const ContactHeat* const heat = p.heat.of_points();
+  ContactHeat* const heat = p.heat.of_points();
   return p.partners.bytes() + p.step.start_traction.capacity() * sizeof(Point) +
          (p.end.state.points.capacity() + p.step.from.capacity()) * sizeof(ContactPointState) +
-         p.forces.term().bytes() + (heat != nullptr ? heat->term().bytes() : 0);
+         p.forces.term().bytes() +
+         (heat != nullptr ? contact::bytes(heat->points()) + heat->term().bytes() : 0);
 }
 
 }  // namespace solidus::contact

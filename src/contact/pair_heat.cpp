@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "contact/heat/heat_measures.hpp"
 #include "numbers/index_casts.hpp"
 
 namespace solidus::contact {
@@ -12,10 +13,12 @@ namespace {}  // namespace
 
 PairHeat::PairHeat(std::unique_ptr<ContactHeat> heat, const ContactGeometry& geometry, ContactForces& forces,
                    ContactStep& step, ContactEnd& end)
-    : heat_(std::move(heat)), geometry_(geometry), forces_(forces), step_(step), end_(end) {}
+    : heat_(std::move(heat)), geometry_(geometry), forces_(forces), step_(step), end_(end) {
+  if (heat_) coupling_ = std::make_unique<HeatCoupling>(geometry.mesh(), heat_->points(), heat_->term());
+}
 
 void PairHeat::begin(double dt, bool adiabatic) {
-  if (has_temperature()) heat_->term().begin_phase({dt, adiabatic});
+  if (has_temperature()) heat_->points().stages().begin({dt, adiabatic});
 }
 
 void PairHeat::predict() {
@@ -34,7 +37,7 @@ void PairHeat::hold_deformation() {
 }
 
 std::vector<double> PairHeat::conducted_temperatures(std::span<const double> temperature) const {
-  return has_temperature() ? heat_->term().interface_temperatures(temperature) : std::vector<double>{};
+  return has_temperature() ? interface_temperatures(heat_->points(), temperature) : std::vector<double>{};
 }
 
 std::vector<double> PairHeat::nodal(std::span<const double> temperature) const {
@@ -73,7 +76,7 @@ void PairHeat::add_coupling(std::span<const double> temperature, linear::Coupled
     }
     return {motion.penetration_rate, trial, share, motion.weight_rate};
   };
-  heat_->term().add_displacement_tangent(rates_of, temperature, matrix);
+  coupling_->add(rates_of, temperature, matrix);
   forces_.term().add_temperature_tangent(matrix);
 }
 

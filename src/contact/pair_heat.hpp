@@ -9,6 +9,7 @@
 #include "contact/forces/forces.hpp"
 #include "contact/forces/step.hpp"
 #include "contact/heat/heat.hpp"
+#include "contact/heat/heat_coupling.hpp"
 #include "contact/points/geometry.hpp"
 #include "linear/contribution.hpp"
 #include "linear/coupled_matrix.hpp"
@@ -27,7 +28,7 @@ class PairHeat {
   /// The term of the thermal phase, with the configuration of the last update(); null without a heat law.
   linear::Contribution* term() const { return heat_ ? &heat_->term() : nullptr; }
   /// Whether the derivative of the term is symmetric.
-  bool symmetric() const { return !heat_ || heat_->term().symmetric(); }
+  bool symmetric() const { return !heat_ || !heat_->points().interface().law.of_temperature(); }
   /// Whether the interface has a temperature Θ_c of its own: heat passes, and it rubs or stores heat.
   bool has_temperature() const { return heat_ && heat_->has_temperature(); }
 
@@ -56,6 +57,7 @@ class PairHeat {
 
  private:
   std::unique_ptr<ContactHeat> heat_;
+  std::unique_ptr<HeatCoupling> coupling_;  ///< null without a heat law
   const ContactGeometry& geometry_;
   ContactForces& forces_;
   ContactStep& step_;

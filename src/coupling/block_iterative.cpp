@@ -95,7 +95,7 @@ void BlockIterative::synchronise(const State& state) {
 
 void BlockIterative::forget() {
   phases_.mechanics->system().solver().forget();
-  phases_.heat->forget();
+  heat::forget(*phases_.heat);
   for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 

@@ -10,8 +10,6 @@
 
 namespace solidus::coupling {
 
-namespace {}  // namespace
-
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                      const linear::ActiveSet& active)
     : mesh_(mesh), materials_(materials), material_(mesh.x.size(), nullptr) {
@@ -66,7 +64,7 @@ std::vector<double> Coherency::at(const heat::ThermalPhase* heat, const heat::Th
   if (!melts_) return {};
   std::vector<double> solid(mesh_.x.size(), 1.0);
   if (heat != nullptr) {
-    solid = heat->solid_fraction(state);
+    solid = heat->states().solid_fraction(state);
     parallel::GhostExchange(mesh_).update(solid, 1);
   } else {
     for (std::size_t i = 0; i < material_.size(); ++i)

@@ -8,6 +8,7 @@
 #include "coupling/contact_states.hpp"
 #include "coupling/coupled_saddle_solver.hpp"
 #include "coupling/longest_way.hpp"
+#include "heat/thermal_parts.hpp"
 #include "mechanics/mechanical_failure.hpp"
 #include "mechanics/solver/nodal_pressure.hpp"
 #include "mechanics/solver/saddle_solver.hpp"
@@ -60,8 +61,8 @@ double CoupledResidual::size() const {
 CoupledNewton::CoupledNewton(const Phases& phases, linear::CoupledSolverKind solver)
     : phases_(phases),
       mechanics_(*phases.mechanics),
-      thermal_(phases.heat->iteration()),
-      matrix_(mechanics_.mesh(), mechanics_.system().matrix(), thermal_->matrix(),
+      thermal_(std::make_unique<heat::ThermalIteration>(*phases.heat)),
+      matrix_(mechanics_.mesh(), mechanics_.system().matrix(), phases.heat->parts().system->matrix(),
               mechanics_.system().saddle() != nullptr ? &mechanics_.system().saddle()->matrix() : nullptr),
       ghosts_(mechanics_.mesh()) {
   // The solver depends on the elements: those with a pressure make a saddle point, others two fields. Kernels
@@ -76,7 +77,7 @@ CoupledNewton::CoupledNewton(const Phases& phases, linear::CoupledSolverKind sol
         std::make_unique<linear::CoupledSolver>(mesh, mechanics_.bodies().components, solver, tolerance);
   for (const auto& block : mechanics_.bodies().blocks) {
     auto& kernel = dynamic_cast<mechanics::CoupledKernel&>(*block);
-    kernel.bind_heat(thermal_->matrix());
+    kernel.bind_heat(phases.heat->parts().system->matrix());
     kernels_.push_back(&kernel);
   }
   const auto n_owned = as_size(mesh.n_owned_nodes);
@@ -113,7 +114,7 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
 
   mechanics_.bodies().finish(old, x, history_, nullptr, nullptr, nullptr, &deformation_);
   if (phases_.structural != nullptr) phases_.structural->set_deformation(deformation_);
-  thermal_->evaluate();
+  thermal_->equations().evaluate();
   return present();
 }
 
@@ -123,12 +124,13 @@ void CoupledNewton::release_deformation() {
 }
 
 void CoupledNewton::set_contact_temperatures() {
-  for (contact::ContactPair* pair : phases_.contacts) pair->set_temperature(thermal_->temperature());
+  for (contact::ContactPair* pair : phases_.contacts) pair->set_temperature(thermal_->state().temperature);
 }
 
 CoupledResidual CoupledNewton::present() const {
   const auto ratio = [](double norm, double reference) { return reference > 0 ? norm / reference : norm; };
-  return {ratio(progress_.norm, progress_.reference), ratio(thermal_->unbalanced(), thermal_->moved())};
+  return {ratio(progress_.norm, progress_.reference),
+          ratio(thermal_->equations().imbalance().unbalanced, thermal_->equations().imbalance().moved)};
 }
 
 double CoupledNewton::goal() const {
@@ -138,12 +140,13 @@ double CoupledNewton::goal() const {
 }
 
 bool CoupledNewton::balanced() const {
-  return progress_.norm <= goal() && (thermal_->converged() || heat_is_rounding());
+  return progress_.norm <= goal() && (thermal_->equations().converged() || heat_is_rounding());
 }
 
 bool CoupledNewton::heat_is_rounding() const {
   return progress_.norm <= goal() && progress_.next_step <= k_rounding_step &&
-         thermal_->unbalanced() <= std::min(2 * progress_.shifted_heat, k_rounding_heat * thermal_->moved());
+         thermal_->equations().imbalance().unbalanced <=
+             std::min(2 * progress_.shifted_heat, k_rounding_heat * thermal_->equations().imbalance().moved);
 }
 
 bool CoupledNewton::converged() const {
@@ -156,20 +159,21 @@ linear::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState&
                                                std::span<const double> x, int iteration) {
   // Tangents of both fields; if contact has changed the graph of heat, kernels are bound again.
   mechanics_.equations().tangent(x);
-  if (thermal_->follow_graph())
-    for (mechanics::CoupledKernel* kernel : kernels_) kernel->bind_heat(thermal_->matrix());
+  if (phases_.heat->parts().follow_graph())
+    for (mechanics::CoupledKernel* kernel : kernels_)
+      kernel->bind_heat(phases_.heat->parts().system->matrix());
   if (matrix_.set_zero()) solver_->reset();
-  thermal_->assemble(iteration);
+  thermal_->equations().assemble(iteration);
   const mechanics::NodalPressure* const pressure = mechanics_.bodies().pressure.get();
   const mechanics::CoupledIterate at{
       .form = phases_.structural != nullptr ? std::optional(phases_.structural->form()) : std::nullopt,
       .old_u = old.displacement,
       .u = x.first(mechanics_.bodies().n_displacements()),
-      .temperature = thermal_->temperature(),
+      .temperature = thermal_->state().temperature,
       .pressure_unit = pressure != nullptr ? pressure->unit() : 1};
   for (mechanics::CoupledKernel* kernel : kernels_) kernel->add_coupling(at, matrix_);
   for (const contact::ContactPair* pair : phases_.contacts)
-    pair->parts().heat.add_coupling(thermal_->temperature(), matrix_);
+    pair->parts().heat.add_coupling(thermal_->state().temperature, matrix_);
   return matrix_;
 }
 
@@ -215,7 +219,7 @@ void CoupledNewton::spread(std::span<const double> owned, std::span<double> x) c
 }
 
 linear::FieldWeights CoupledNewton::weights() {
-  const std::span<const double> heat = thermal_->right_hand_side();
+  const std::span<const double> heat = thermal_->equations().right_hand_side();
   double squares[2] = {0, 0};
   for (std::size_t i = 0; i < heat.size(); ++i) {
     work_.step_t[i] = heat[i] / *matrix_.temperature().diagonal_block(as_index(i));
@@ -237,7 +241,9 @@ double CoupledNewton::forcing_term(linear::Forcing& forcing, const linear::Field
   const double force = in_use.force * progress_.norm, heat = in_use.heat / weights.heat;
   const auto left = [](double norm, double goal) { return goal > 0 ? norm / goal : 1.0; };
   const double force_left = left(progress_.norm, goal()),
-               heat_left = left(thermal_->unbalanced(), thermal_->tolerance() * thermal_->moved());
+               heat_left = left(
+                   thermal_->equations().imbalance().unbalanced,
+                   thermal_->equations().imbalance().tolerance * thermal_->equations().imbalance().moved);
   return forcing.next(std::max(force_left, heat_left),
                       std::min(force / force_left, heat / heat_left) / std::hypot(force, heat));
 }
@@ -247,7 +253,7 @@ bool CoupledNewton::find_direction(linear::Forcing& forcing, CoupledReport& repo
   const double eta = forcing_term(forcing, scales);
   for (double& r : force_) r = -r;
   const linear::LinearReport linear =
-      solver_->solve(matrix_, force_, thermal_->right_hand_side(), scales, work_.owned_step,
+      solver_->solve(matrix_, force_, thermal_->equations().right_hand_side(), scales, work_.owned_step,
                      std::span(work_.step_t).first(work_.further.size()), eta);
   for (double& r : force_) r = -r;
   report.linear_iterations += linear.iterations;
@@ -268,15 +274,15 @@ bool CoupledNewton::find_direction(linear::Forcing& forcing, CoupledReport& repo
     for (const double heat : work_.further) sum += std::abs(heat);
     progress_.shifted_heat = parallel::global_sum(sum);
   }
-  thermal_->set_direction(work_.step_t, work_.further);
+  thermal_->equations().set_direction(work_.step_t, work_.further);
   return true;
 }
 
 CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::MechanicalState& old,
                                            const mechanics::MechanicalPass& pass, std::vector<double>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = work_.start_u[i] + alpha * work_.step_u[i];
-  thermal_->move(alpha);
-  const auto& temperature = thermal_->temperature();
+  thermal_->equations().move(alpha);
+  const auto& temperature = thermal_->state().temperature;
   const double coldest =
       temperature.empty() ? 1.0 : *std::min_element(temperature.begin(), temperature.end());
   if (!(parallel::global_min(coldest) > 0)) return k_nowhere;
@@ -374,11 +380,12 @@ CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mech
                                      std::vector<double>& x) {
   // Without the heat of motion the tangent is not exact, and more iterations are allowed.
   const bool whole = tangent_ == Tangent::whole;
-  const int most = std::max(mechanics_.bodies().options.newton.max_iterations, thermal_->max_iterations());
+  const int most = std::max(mechanics_.bodies().options.newton.max_iterations,
+                            phases_.heat->parts().options.max_iterations);
   const int max_iterations = whole ? most : 2 * most;
   // The state of the iteration starts again: no equilibrium between iterates is asked for but in the second
   // attempt, and no iteration has been lost yet.
-  pass.iterate_temperature = thermal_->temperature();
+  pass.iterate_temperature = thermal_->state().temperature;
   CoupledReport report;
   linear::Forcing forcing(mechanics_.bodies().options.newton.inexact, k_loosest);
   progress_.in_equilibrium = !whole;
@@ -400,7 +407,7 @@ CoupledReport CoupledNewton::iterate(const mechanics::MechanicalState& old, mech
     if (converged()) return report;
     if (report.iterations == max_iterations) {
       const std::string reason = "no convergence in " + std::to_string(max_iterations) + " iterations";
-      if (!thermal_->converged()) thermal_->reject(reason);
+      if (!thermal_->equations().converged()) thermal_->reject(reason);
       mechanics::reject(mechanics_, reason, x);
     }
     assemble(old, x, report.iterations);

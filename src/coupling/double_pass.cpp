@@ -55,7 +55,7 @@ void DoublePass::synchronise(const State& state) {
 
 void DoublePass::forget() {
   phases_.mechanics->system().solver().forget();
-  phases_.heat->forget();
+  heat::forget(*phases_.heat);
   for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 

@@ -58,7 +58,7 @@ bool ErrorEstimate::measures(const heat::StageFlows& flows) const {
 }
 
 double ErrorEstimate::change_of(const State& old, const State& now, const heat::StageFlows& flows) const {
-  return measures(flows) ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
+  return measures(flows) ? norm_(heat::change_in_kelvin(*phases_->heat, old.heat, now.heat)) : 0.0;
 }
 
 /// The part of the error `mean` of a step that is not forgotten [K]: it may be committed once for every
@@ -72,7 +72,7 @@ double ErrorEstimate::temperature_predictor(const State& old, const State& now, 
   if (!measures(flows) || rates.heat_flow.empty())
     return norm_(
         half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature));
-  const std::vector<double> error = phases_->heat->time_error(now.heat, flows, rates.heat_flow);
+  const std::vector<double> error = heat::time_error(*phases_->heat, now.heat, flows, rates.heat_flow);
   return std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
 }
 
@@ -119,8 +119,9 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
   // Heat, displacement, stress of creep and skin, each by its own measure of the difference.
   double in_heat = norm_(difference(whole.heat.temperature, halves.heat.temperature));
   if (measures(flows))
-    in_heat = std::max(in_heat, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
-                                        rates.changed, change_of(old, halves, flows)));
+    in_heat =
+        std::max(in_heat, lasting(norm_.mean(heat::change_in_kelvin(*phases_->heat, whole.heat, halves.heat)),
+                                  rates.changed, change_of(old, halves, flows)));
   // Stress follows from the difference of the creep strains, relaxed over the step.
   double in_stress = 0;
   if (creep_ != nullptr)
@@ -138,7 +139,7 @@ Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
   // Rates of heat where the thermal phase knows its flows, else of temperature.
   Rates rates;
   if (measures(flows))
-    rates.heat_flow = phases_->heat->flow_at_end(flows);
+    rates.heat_flow = heat::flow_at_end(*phases_->heat, flows);
   else
     rates.temperature = difference(old.heat.temperature, now.heat.temperature, dt);
   rates.displacement = difference(old.mechanics.displacement, now.mechanics.displacement, dt);

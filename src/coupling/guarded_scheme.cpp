@@ -41,7 +41,7 @@ heat::TemperatureRange including(const heat::TemperatureRange& a, const heat::Te
 
 /// Beyond which nothing heats or cools; without end where something does.
 heat::TemperatureRange range_around(const Phases& phases, double time) {
-  heat::TemperatureRange around = phases.heat->ambient_range(time, false);
+  heat::TemperatureRange around = heat::ambient_range(*phases.heat, time, false);
   for (const contact::ContactPair* pair : phases.contacts) {
     if (pair->parts().spec.friction) around.highest = HUGE_VAL;
     const std::optional<double> tool = contact::tool_temperature(pair->parts().spec, pair->parts().end.time);

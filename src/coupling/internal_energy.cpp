@@ -49,7 +49,7 @@ bool has_internal_energy(const Phases& phases, bool bodies_come) {
 }
 
 double internal_energy(const Phases& phases, const State& state) {
-  double energy = phases.heat->enthalpy(state.heat);
+  double energy = phases.heat->states().enthalpy(state.heat);
   phases.structural->release();  // of the step that is over: its storage serves again
   energy += mechanics::structural_energy(*phases.mechanics, state.mechanics, state.heat.temperature,
                                          plateau_share(phases, state.heat));

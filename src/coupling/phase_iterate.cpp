@@ -67,7 +67,7 @@ void PhaseIterate::advance(const heat::ThermalState& now, double share) {
 
 double PhaseIterate::distance(const heat::ThermalState& a, const heat::ThermalState& b) const {
   if (a.enthalpy.empty()) return largest_difference(b.temperature, a.temperature);
-  const std::vector<double> change = phases_->heat->change_in_kelvin(a, b);
+  const std::vector<double> change = heat::change_in_kelvin(*phases_->heat, a, b);
   return largest_difference(change, std::vector<double>(change.size(), 0.0));
 }
 

@@ -31,7 +31,7 @@ void range_of_owned(const std::vector<double>& temperature, Index n_owned, const
 }  // namespace
 
 std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState& state) {
-  return phases.heat != nullptr ? phases.heat->plateau_share(state) : std::vector<double>{};
+  return phases.heat != nullptr ? phases.heat->states().plateau_share(state) : std::vector<double>{};
 }
 
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat) {
@@ -50,8 +50,9 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   // The range of temperatures and the solid part are those of heat, or of the given temperatures without
   // heat.
   if (phases.heat != nullptr) {
-    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->active(), effort);
-    effort.solid_fraction = phases.heat->mean_solid_fraction(state.heat);
+    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &heat::active(*phases.heat),
+                   effort);
+    effort.solid_fraction = phases.heat->states().mean_solid_fraction(state.heat);
   } else {
     range_of_owned(phases.temperature, phases.mechanics->mesh().n_owned_nodes, nullptr, effort);
   }

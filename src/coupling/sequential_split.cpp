@@ -67,7 +67,7 @@ void SequentialSplit::synchronise(const State& state) {
 
 void SequentialSplit::forget() {
   if (phases_.mechanics != nullptr) phases_.mechanics->system().solver().forget();
-  if (phases_.heat != nullptr) phases_.heat->forget();
+  if (phases_.heat != nullptr) heat::forget(*phases_.heat);
   for (contact::ContactPair* pair : phases_.contacts) pair->parts().geometry.graph().forget();
 }
 
@@ -92,7 +92,7 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
     deformation = mechanical_phase(old, old, trial, time, dt, extrapolated(old, dt), effort);
   if (phases_.heat != nullptr)
     thermal_phase(old, old, trial, deformation,
-                  {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
+                  {.time = time, .dt = dt, .stepping = heat::stepping(*phases_.heat)}, effort);
   // What friction and gaps exchanged is booked once both phases have been solved.
   book_interface(effort.energy, phases_.structural != nullptr);
   const profile::Part part("audit");
@@ -235,10 +235,12 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
   if (interfaces_begin(phases_, old)) find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->parts().heat.hold_deformation();
   for (std::size_t i = 0; i < through.size(); ++i) phases_.contacts[i]->parts().gaps.use(through[i]);
-  thermal_pass(
-      phases_, old, warm, held,
-      {.time = time, .dt = dt, .iterate = again ? &warm.heat : nullptr, .stepping = phases_.heat->stepping()},
-      effort);
+  thermal_pass(phases_, old, warm, held,
+               {.time = time,
+                .dt = dt,
+                .iterate = again ? &warm.heat : nullptr,
+                .stepping = heat::stepping(*phases_.heat)},
+               effort);
   // The energy that expansion is expected to take is moved ahead, so that mechanics begins with it.
   lead = mechanics::expected_expansion(held, warm.heat.temperature);
   book_interface(effort.energy, phases_.structural != nullptr);

@@ -114,18 +114,18 @@ void Simulation::enter_stage(Progress& p, const std::optional<RestartData>& from
   // Bodies that come or leave change the internal energy without heat: the difference is booked as carried
   // energy, so that the first law closes, once only where a checkpoint has booked it already.
   const bool changed_before = from && from->stage.number == p.stage_start.number;
-  const bool energy_changes = staged && anew && !changed_before && p.stage > 0 && internal_energy_;
-  const double energy = energy_changes ? internal_energy_(p.committed) : 0.0;
+  const bool energy_changes = staged && anew && !changed_before && p.stage > 0 && followers_.internal_energy;
+  const double energy = energy_changes ? followers_.internal_energy(p.committed) : 0.0;
   if (staged) begin_bodies(p, anew, changed_before);
   p.solid_fraction = p.solid_fraction_of(p.committed);
   scheme_->synchronise(p.committed);
-  if (energy_changes) p.carried.energy += internal_energy_(p.committed) - energy;
+  if (energy_changes) p.carried.energy += followers_.internal_energy(p.committed) - energy;
   scheme_->forget();  // as after a checkpoint of this state
 }
 
 std::vector<TimeEvent> Simulation::events(const Progress& p) const {
   std::vector<TimeEvent> all = options_.events ? options_.events(p.stage) : std::vector<TimeEvent>{};
-  if (growth_ != nullptr) add_births(*growth_, all);
+  if (followers_.growth != nullptr) add_births(*followers_.growth, all);
   return all;
 }
 
@@ -137,9 +137,9 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   const Stage& stage = options_.stages[p.stage];
   const bool changes = anew && !changed_before;
   if (changes && stage.shot > 0) p.committed.shot = stage.shot;
-  if (changes && stage.begins_shot && shot_map_ != nullptr)
-    p.carried.corrected += shot_map_->begin(p.committed, p.shots);
-  const BodyHeat heat = stage_begins_(p.stage, p.stage_start, changes ? &p.committed : nullptr);
+  if (changes && stage.begins_shot && followers_.shots != nullptr)
+    p.carried.corrected += followers_.shots->begin(p.committed, p.shots);
+  const BodyHeat heat = followers_.stage_begins(p.stage, p.stage_start, changes ? &p.committed : nullptr);
   scheme_->conditions_changed();
   if (!changes) return;
   p.stage_start.displacement = p.committed.mechanics.displacement;
@@ -149,37 +149,37 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   }
   if (!stage.pours) return;
   p.committed.poured = p.committed.time;
-  if (criteria_ == nullptr) return;
+  if (followers_.criteria == nullptr) return;
   const criteria::CriterionInput start{0, p.committed.heat, p.committed.mechanics};
   // What a die bears is counted from shot to shot, all else from the first pour of each of them.
   if (stage.begins_shot && stage.shot > 1)
-    p.committed.criteria = criteria_->next_shot(p.committed.criteria, start);
+    p.committed.criteria = followers_.criteria->next_shot(p.committed.criteria, start);
   else if (stage.begins_shot || p.stage == 0)
-    p.committed.criteria = criteria_->initial(start);
+    p.committed.criteria = followers_.criteria->initial(start);
   else
-    p.committed.criteria = criteria_->restart(p.committed.criteria, start);
+    p.committed.criteria = followers_.criteria->restart(p.committed.criteria, start);
 }
 
 void Simulation::grow(Progress& p) {
-  if (growth_ == nullptr || !growth_->due(p.committed.time)) return;
-  p.carried += let_grow(*growth_, *scheme_, internal_energy_, p.committed);
+  if (followers_.growth == nullptr || !followers_.growth->due(p.committed.time)) return;
+  p.carried += let_grow(*followers_.growth, *scheme_, followers_.internal_energy, p.committed);
   p.solid_fraction = p.solid_fraction_of(p.committed);
 }
 
 bool Simulation::solid(const Progress& p) const {
-  if (growth_ != nullptr && growth_->goes_on(p.committed.time)) return false;
+  if (followers_.growth != nullptr && followers_.growth->goes_on(p.committed.time)) return false;
   return options_.until_solid && p.record.number > 0 && p.solid_fraction >= k_solid;
 }
 
 bool Simulation::periodic(const Progress& p) const {
   const Stage& stage = options_.stages[p.stage];
-  return shot_map_ != nullptr && stage.ends_shot && p.committed.time == stage.end &&
-         shot_map_->periodic(p.shots);
+  return followers_.shots != nullptr && stage.ends_shot && p.committed.time == stage.end &&
+         followers_.shots->periodic(p.shots);
 }
 
 void Simulation::end_shot(Progress& p) {
-  if (shot_map_ == nullptr) return;
-  const ShotRecord record = shot_map_->end(p.committed, p.shots);
+  if (followers_.shots == nullptr) return;
+  const ShotRecord record = followers_.shots->end(p.committed, p.shots);
   for (Observer* o : observers_) o->shot(record, p.committed);
 }
 
@@ -210,8 +210,9 @@ void Simulation::begin(State initial, SolidFraction solid_fraction, const std::o
   p.record.number = from ? from->steps : 0;
   p.record.time = p.committed.time;
   // A run that goes on has a state with all that was born before.
-  if (from && growth_ != nullptr && growth_->due(p.committed.time)) growth_->grow(p.committed.time, nullptr);
-  if (from && moves_heat_) moves_heat_(p.committed, true);
+  if (from && followers_.growth != nullptr && followers_.growth->due(p.committed.time))
+    followers_.growth->grow(p.committed.time, nullptr);
+  if (from && followers_.moves_heat) followers_.moves_heat(p.committed, true);
   if (from) {
     p.shots = from->shots;
     p.carried = from->pending;
@@ -224,7 +225,7 @@ void Simulation::begin(State initial, SolidFraction solid_fraction, const std::o
   // A run that goes on from the end of a shot changes bodies as one that has not stopped.
   const auto next = static_cast<std::size_t>(ahead - options_.stages.begin());
   if (from && options_.stages[next].begins_shot && next == p.stage + 1)
-    stage_begins_(p.stage, from->stage, nullptr);
+    followers_.stage_begins(p.stage, from->stage, nullptr);
   p.stage = next;
   enter_stage(p, from);
   for (Observer* o : observers_) o->begin(p.committed);
@@ -232,7 +233,7 @@ void Simulation::begin(State initial, SolidFraction solid_fraction, const std::o
 
 void Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
   if (!periodic(p)) p.stage = options_.stages.size() - 1;
-  if (options_.stages[p.stage].of_case > 0) stage_begins_(p.stage, stage_start, nullptr);
+  if (options_.stages[p.stage].of_case > 0) followers_.stage_begins(p.stage, stage_start, nullptr);
   scheme_->synchronise(p.committed);
   for (Observer* o : observers_) o->begin(p.committed);
   for (Observer* o : observers_) o->end(p.committed);
@@ -313,24 +314,13 @@ void Simulation::conditions_changed() {
   p.control->resume(std::move(control));
 }
 
-bool Simulation::pending() const {
-  return progress_->pending.has_value();
-}
-
-const State& Simulation::state() const {
-  return progress_->pending ? progress_->trial : progress_->committed;
-}
-
-const StepRecord& Simulation::record() const {
-  return progress_->pending ? progress_->pending->record : progress_->record;
-}
-
-const StageStart& Simulation::stage_start() const {
-  return progress_->stage_start;
-}
-
-std::size_t Simulation::stage() const {
-  return progress_->stage;
+Present Simulation::present() const {
+  const Progress& p = *progress_;
+  return {.pending = p.pending.has_value(),
+          .state = p.pending ? p.trial : p.committed,
+          .record = p.pending ? p.pending->record : p.record,
+          .stage_start = p.stage_start,
+          .stage = p.stage};
 }
 
 PlannedStep Simulation::plan(const Progress& p) const {
@@ -343,8 +333,8 @@ PlannedStep Simulation::plan(const Progress& p) const {
   const double left = looser * longest_before_solid(1 - p.solid_fraction, time - p.committed.poured, least);
   if (least > 0 && p.solid_fraction < k_solid) longest = {std::max(left, 0.25 * options.step), "last melt"};
   const PlannedStep step = p.control->plan(time, longest);
-  if (loads_ == nullptr || !options.adaptive) return step;
-  const double moves = loads_->lasting_loads(time, step.time);
+  if (followers_.loads == nullptr || !options.adaptive) return step;
+  const double moves = heat::lasting_loads(*followers_.loads, time, step.time);
   return moves < step.dt ? p.control->plan(time, {moves, "load moves"}) : step;
 }
 
@@ -354,7 +344,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
   const PlannedStep step = plan(p);
   StepMeasure measure;
   StepRecord record;
-  if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
+  if (followers_.burning != nullptr)
+    heat::begin_burning(*followers_.burning, p.committed.burning, p.committed.time, step.time);
   scheme_->allow_early_end(p.control->may_end_early());
   try {
     const auto measured = [](const LocalError& error) {
@@ -393,12 +384,19 @@ Simulation::Try Simulation::try_step(Progress& p) {
     if (p.control->rejected(step, rejection.reason())) return Try::repeat;
     p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt, rejection.failure(),
               {}};
-    if (diagnose_) p.stop.diagnosis = diagnose_(p.committed, rejection, step.dt);
+    if (followers_.diagnose) p.stop.diagnosis = followers_.diagnose(p.committed, rejection, step.dt);
     return Try::stuck;
   }
-  if (heat_ != nullptr)
-    p.trial.burning =
-        heat_->burnt(p.committed.burning, p.committed.heat, p.trial.heat, p.committed.time, step.time);
+  hold_pending(p, step, measure, std::move(record));
+  return Try::taken;
+}
+
+/// The trial state is that at the end of a step that has been taken, and is told of as such.
+void Simulation::hold_pending(Progress& p, const PlannedStep& step, const StepMeasure& measure,
+                              StepRecord record) {
+  if (followers_.burning != nullptr)
+    p.trial.burning = heat::burnt(*followers_.burning, p.committed.burning, p.committed.heat, p.trial.heat,
+                                  p.committed.time, step.time);
   p.trial.time = step.time;
   p.trial.shot = p.committed.shot;
   p.trial.poured = p.committed.poured;
@@ -413,7 +411,6 @@ Simulation::Try Simulation::try_step(Progress& p) {
                   (options_.until_solid && record.solid_fraction >= k_solid);
   record.energy.bodies = p.carried;
   p.pending = {step, measure, std::move(record)};
-  return Try::taken;
 }
 
 // A step that is committed although it exceeds a limit contains a jump, or is the smallest one: its rates are
@@ -431,9 +428,10 @@ void Simulation::check_limits(Progress& p, const PlannedStep& step, const StepMe
 
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
   p.trial.criteria = std::move(p.committed.criteria);
-  if (criteria_ != nullptr)
-    criteria_->step({p.committed.time - p.committed.poured, p.committed.heat, p.committed.mechanics},
-                    {p.trial.time - p.committed.poured, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
+  if (followers_.criteria != nullptr)
+    followers_.criteria->step(
+        {p.committed.time - p.committed.poured, p.committed.heat, p.committed.mechanics},
+        {p.trial.time - p.committed.poured, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
   std::swap(p.committed, p.trial);
   move_heat(p.committed);
   p.step->commit();
@@ -442,7 +440,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   if (p.control->jumps_at(step.time)) p.step->forget();
   p.solid_fraction = p.record.solid_fraction;
   p.carried = {};
-  if (shot_map_ != nullptr) {
+  if (followers_.shots != nullptr) {
     p.shots.lowest = std::min(p.shots.lowest, p.record.min_temperature);
     p.shots.highest = std::max(p.shots.highest, p.record.max_temperature);
   }

@@ -57,6 +57,53 @@ enum class Outcome {
   interrupted  ///< asked to stop; the last committed state is kept
 };
 
+/// What goes along with the steps of a run, each only where it is there. What is pointed to must outlive the
+/// simulation.
+struct Followers {
+  /// Brings State::criteria along with every step that is committed.
+  criteria::Criteria* criteria = nullptr;
+  /// The phase that gets the heat of bodies that burn; State::burning goes along.
+  heat::ThermalPhase* burning = nullptr;
+  /// Adaptive steps are kept so short that loads of this phase that move overlap with themselves from step to
+  /// step.
+  const heat::ThermalPhase* loads = nullptr;
+  /// Bodies grow between steps; adaptive steps end where elements are born.
+  Growth* growth = nullptr;
+  /// Called after each step that is committed, before observers see its end: moves heat with the metal that
+  /// the criteria have moved in it. Collective.
+  /// @param state  of which the criteria are those of its time
+  /// @param has_moved  the state has the moved heat already: a run goes on
+  std::function<void(State& state, bool has_moved)> moves_heat;
+  /// Asked before each step, on every process; the run stops when one of them says so.
+  std::function<bool()> stop_asked;
+  /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
+  /// conditions. Collective.
+  /// @param stage   number in TimeOptions::stages
+  /// @param begins  the committed state, from which bodies that leave take what is theirs and to which others
+  ///                come; null where the run goes on with a state that the stage has begun with
+  /// It returns the heat of these bodies, which is that of the run's start where the first stage begins.
+  std::function<BodyHeat(std::size_t stage, const StageStart&, State* begins)> stage_begins;
+  /// Internal energy of a state, by which it is booked how that of the committed state changes with bodies
+  /// that come and leave (BodyHeat::energy). Collective.
+  std::function<double(const State&)> internal_energy;
+  /// Finds the physical state behind a step that could not be taken, for Stop. Called once, where the run
+  /// ends for it, before observers are told. Collective.
+  /// @param last  the last committed state
+  /// @param dt    the shortest step tried [s]
+  std::function<Diagnosis(const State& last, const StepRejected& rejected, double dt)> diagnose;
+  /// Reports shots, and ends the run after one that leaves the die as it found it.
+  const ShotMap* shots = nullptr;
+};
+
+/// Where a run that has begun stands.
+struct Present {
+  bool pending = false;           ///< a step has been taken that is not committed yet
+  const State& state;             ///< of the pending step, else the last committed one
+  const StepRecord& record;       ///< likewise
+  const StageStart& stage_start;  ///< of the present stage
+  std::size_t stage = 0;          ///< in TimeOptions::stages
+};
+
 class Simulation {
  public:
   /// @param estimate  how adaptive steps measure their local error; needed unless they do not
@@ -66,45 +113,8 @@ class Simulation {
   ~Simulation();
   /// Observers are called in the order they were added; they must outlive the simulation.
   void add(Observer& observer) { observers_.push_back(&observer); }
-  /// Brings State::criteria along with every step that is committed; must outlive the simulation.
-  void follow(criteria::Criteria& criteria) { criteria_ = &criteria; }
-  /// Gives this phase the heat of bodies that burn, and brings State::burning along; must outlive the
-  /// simulation.
-  void follow_burning(heat::ThermalPhase& heat) { heat_ = &heat; }
-  /// Keeps adaptive steps so short that loads of this phase that move overlap with themselves from step to
-  /// step; must outlive the simulation.
-  void follow_loads(const heat::ThermalPhase& heat) { loads_ = &heat; }
-  /// Lets bodies grow between steps; adaptive steps end where elements are born. Must outlive the simulation.
-  void follow_growth(Growth& growth) { growth_ = &growth; }
-  /// Called after each step that is committed, before observers see its end: moves heat with the metal that
-  /// the criteria have moved in it. Collective.
-  /// @param state  of which the criteria are those of its time
-  /// @param has_moved  the state has the moved heat already: a run goes on
-  using MovesHeat = std::function<void(State& state, bool has_moved)>;
-  void follow_metal(MovesHeat moves) { moves_heat_ = std::move(moves); }
-  /// Asked before each step, on every process; the run stops when one of them says so.
-  void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
-  /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
-  /// conditions. Collective.
-  /// @param stage   number in TimeOptions::stages
-  /// @param begins  the committed state, from which bodies that leave take what is theirs and to which others
-  ///                come; null where the run goes on with a state that the stage has begun with
-  /// It returns the heat of these bodies, which is that of the run's start where the first stage begins.
-  using StageBegins = std::function<BodyHeat(std::size_t stage, const StageStart&, State* begins)>;
-  void at_stage(StageBegins begins) { stage_begins_ = std::move(begins); }
-  /// Books how the internal energy of the committed state changes with bodies that come and leave
-  /// (BodyHeat::energy). Collective.
-  using InternalEnergy = std::function<double(const State&)>;
-  void follow_internal_energy(InternalEnergy energy) { internal_energy_ = std::move(energy); }
-  /// Finds the physical state behind a step that could not be taken, for Stop. Called once, where the run
-  /// ends for it, before observers are told. Collective.
-  /// @param last  the last committed state
-  /// @param dt    the shortest step tried [s]
-  using Diagnose = std::function<Diagnosis(const State& last, const StepRejected& rejected, double dt)>;
-  void diagnose_by(Diagnose diagnose) { diagnose_ = std::move(diagnose); }
-  /// Reports shots, and ends the run after one that leaves the die as it found it; must outlive the
-  /// simulation.
-  void follow_shots(const ShotMap& map) { shot_map_ = &map; }
+  /// What goes along with the run; to be set before it begins.
+  Followers& followers() { return followers_; }
   /// Gives the solid fraction of a committed state, of the bodies that are active in the present stage, as
   /// StepEffort gives it of the states that follow. Collective.
   using SolidFraction = std::function<double(const State&)>;
@@ -131,15 +141,8 @@ class Simulation {
   void ask_step(double step);
   /// The phases have got other conditions from outside. No step is pending. Collective.
   void conditions_changed();
-  bool pending() const;
-  /// The state of the pending step, else the last committed one. Not before begin().
-  const State& state() const;
-  /// The pending step, else the last committed one.
-  const StepRecord& record() const;
-  /// Start of the present stage.
-  const StageStart& stage_start() const;
-  /// The present stage, in TimeOptions::stages.
-  std::size_t stage() const;
+  /// Where the run stands; not before begin().
+  Present present() const;
 
  private:
   struct Progress;  ///< variables of the loop over steps
@@ -159,6 +162,7 @@ class Simulation {
   bool periodic(const Progress& p) const;
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
+  void hold_pending(Progress& p, const PlannedStep& step, const StepMeasure& measure, StepRecord record);
   PlannedStep plan(const Progress& p) const;
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
@@ -177,16 +181,7 @@ class Simulation {
   TimeOptions options_;
   std::optional<ErrorEstimate> estimate_;
   std::vector<Observer*> observers_;
-  criteria::Criteria* criteria_ = nullptr;
-  heat::ThermalPhase* heat_ = nullptr;
-  const heat::ThermalPhase* loads_ = nullptr;
-  Growth* growth_ = nullptr;
-  std::function<bool()> stop_asked_;
-  StageBegins stage_begins_;
-  MovesHeat moves_heat_;  ///< empty: heat stays where it is
-  InternalEnergy internal_energy_;
-  Diagnose diagnose_;
-  const ShotMap* shot_map_ = nullptr;
+  Followers followers_;
 };
 
 }  // namespace solidus::coupling

@@ -13,12 +13,12 @@ bool Simulation::checkpoint_due(const StepRecord& record) const {
 }
 
 bool Simulation::stop_asked() const {
-  return stop_asked_ && parallel::any_process(stop_asked_());
+  return followers_.stop_asked && parallel::any_process(followers_.stop_asked());
 }
 
 void Simulation::move_heat(State& state) {
-  if (!moves_heat_) return;
-  moves_heat_(state, false);
+  if (!followers_.moves_heat) return;
+  followers_.moves_heat(state, false);
   scheme_->synchronise(state);
 }
 

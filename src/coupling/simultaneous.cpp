@@ -137,7 +137,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt,
                                               mechanics::StepDeformation& deformation) {
-  newton_->thermal().begin(old.heat, time, dt);
+  newton_->thermal().begin(old.heat, dt, LoadWindow::backward_euler(time - dt, time));
   const std::vector<double> share = plateau_share(phases_, old.heat);
   PhaseIterate fractions(phases_, old.heat);
   return stage(old.mechanics, old.contacts, coherency_of(phases_, old.heat),
@@ -164,7 +164,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   // The second stage starts from the extrapolated first one, if that may be; otherwise it is backward Euler
   // over the rest.
   extrapolated =
-      extrapolated && thermal.may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
+      extrapolated && thermal.watch().may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
   // By extrapolation the second stage starts at Y_n + carried (Y_1 − Y_n).
   const double carried = extrapolated ? material::k_sdirk_carried : 1.0;
   contact.add(1, carried);
@@ -188,7 +188,7 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
     if (extrapolated) return std::nullopt;  // it may set out from a state that has no equilibrium nearby
     throw;
   }
-  if (extrapolated && thermal.overshoots(trial.heat)) return std::nullopt;
+  if (extrapolated && thermal.watch().overshoots(trial.heat)) return std::nullopt;
   // The second stage starts from a plastic strain that goes on as in the first, and flow does not go back.
   if (extrapolated && effort.energy.plastic_work < k_flow_falls * of_first.energy.plastic_work)
     return std::nullopt;
@@ -220,7 +220,7 @@ bool SimultaneousScheme::settled(const PhaseIterate& fractions, int iteration) {
   const CoupledResidual& start = report_.residuals.front();
   return iteration > 0 && left <= k_balanced &&
          start.force <= phases_.mechanics->bodies().options.newton.tolerance &&
-         start.heat <= newton_->thermal().tolerance();
+         start.heat <= newton_->thermal().equations().imbalance().tolerance;
 }
 
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
@@ -230,7 +230,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      PhaseIterate* fractions) {
   const profile::Part part("both fields");
   const double start = processes::wall_time();
-  pass.iterate_temperature = newton_->thermal().temperature();
+  pass.iterate_temperature = newton_->thermal().state().temperature;
   begin_contacts(phases_, contacts, old, pass, coherency);
   mechanics::NodalPressure* const pressure = phases_.mechanics->bodies().pressure.get();
   if (pressure != nullptr) mechanics::release_pores(*pressure);
@@ -268,7 +268,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     }
     balanced.clear();
     // Limits of conduction follow the solution a few times, then stay.
-    if (revisions < k_revisions && newton_->thermal().revise_limits()) {
+    if (revisions < k_revisions && newton_->thermal().watch().revise_limits(newton_->thermal().state())) {
       ++revisions;
       continue;
     }

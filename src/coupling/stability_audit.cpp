@@ -13,7 +13,7 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
   if (!phases.audits_stability()) return r;
   const EnergyAudit& energy = effort.energy;
   const double ambient = *phases.ambient_temperature;
-  const heat::EntropyChange stored = phases.heat->entropy_change(old.heat, trial.heat);
+  const heat::EntropyChange stored = phases.heat->states().entropy_change(old.heat, trial.heat);
   const mechanics::StructuralChange structural =
       mechanics::structural_change(deformation, trial.heat.temperature);
   const contact::InterfaceSums& interface = energy.interface;

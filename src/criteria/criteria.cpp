@@ -10,7 +10,7 @@ namespace solidus::criteria {
 
 Criteria::NodalFractions Criteria::phases_of(const CriterionInput& moment) const {
   if (phase_ == nullptr) return {};
-  return {phase_->solid_fraction(moment.heat), phase_->plateau_share(moment.heat)};
+  return {phase_->states().solid_fraction(moment.heat), phase_->states().plateau_share(moment.heat)};
 }
 
 Criteria::NodalFractions Criteria::present(const CriterionInput& moment) const {
@@ -56,9 +56,9 @@ void Criteria::step(const CriterionInput& old, const CriterionInput& next, Crite
   seconds_ += processes::wall_time() - start;
 }
 
-std::vector<const quantities::Quantity*> Criteria::fields() const {
+std::vector<const quantities::Quantity*> fields_of(const Criteria& criteria) {
   std::vector<const quantities::Quantity*> all;
-  for (const auto& criterion : list_)
+  for (const auto& criterion : criteria.each())
     for (const quantities::Quantity* field : criterion->fields()) all.push_back(field);
   return all;
 }
@@ -76,10 +76,11 @@ void Criteria::fill(const CriterionInput& now, const CriteriaState& state,
   }
 }
 
-std::vector<CriterionResult> Criteria::findings(const CriteriaState& state) const {
+std::vector<CriterionResult> findings_of(const Criteria& criteria, const CriteriaState& state) {
   std::vector<CriterionResult> all;
-  for (std::size_t i = 0; i < list_.size(); ++i)
-    for (const CriterionResult& finding : list_[i]->findings(state.records[i])) all.push_back(finding);
+  for (std::size_t i = 0; i < criteria.each().size(); ++i)
+    for (const CriterionResult& finding : criteria.each()[i]->findings(state.records[i]))
+      all.push_back(finding);
   return all;
 }
 
@@ -93,10 +94,10 @@ void Criteria::know_plates(std::span<const PlateTimes> plates) {
   for (const auto& criterion : list_) criterion->know_plates(plates);
 }
 
-std::size_t Criteria::bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& criterion : list_) bytes += criterion->bytes();
-  return bytes;
+std::size_t bytes(const Criteria& criteria) {
+  std::size_t total = 0;
+  for (const auto& criterion : criteria.each()) total += criterion->bytes();
+  return total;
 }
 
 }  // namespace solidus::criteria

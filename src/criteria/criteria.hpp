@@ -17,7 +17,7 @@ class Criteria {
   /// @param phase  of the states to come; null: there is none. Must outlive the criteria.
   explicit Criteria(const heat::ThermalPhase* phase) : phase_(phase) {}
   void add(std::unique_ptr<Criterion> criterion) { list_.push_back(std::move(criterion)); }
-  bool empty() const { return list_.empty(); }
+  std::span<const std::unique_ptr<Criterion>> each() const { return list_; }
   /// Goes on with criteria of the same kinds for a mesh that has more elements.
   void replace(Criteria by);
   /// Gives criteria the wear of the present state of contact with every step (CriterionInput::wear).
@@ -34,13 +34,9 @@ class Criteria {
   /// Advances all criteria over a step, as Criterion::step does. `state` is that of t_n and becomes that of
   /// t_{n+1}. Collective.
   void step(const CriterionInput& old, const CriterionInput& next, CriteriaState& state);
-  /// Returns the fields of all criteria, one after the other.
-  std::vector<const quantities::Quantity*> fields() const;
-  /// @param values  one span per field, in the order of fields()
+  /// @param values  one span per field, in the order of fields_of()
   void fill(const CriterionInput& now, const CriteriaState& state,
             std::span<const std::span<double>> values) const;
-  std::vector<CriterionResult> findings(const CriteriaState& state) const;
-  std::size_t bytes() const;
   double seconds() const { return seconds_; }  ///< spent in steps so far
 
  private:
@@ -61,5 +57,10 @@ class Criteria {
   Wear wear_;  ///< empty: nothing wears
   double seconds_ = 0;
 };
+
+/// The fields of all criteria, one after the other.
+std::vector<const quantities::Quantity*> fields_of(const Criteria& criteria);
+std::vector<CriterionResult> findings_of(const Criteria& criteria, const CriteriaState& state);
+std::size_t bytes(const Criteria& criteria);
 
 }  // namespace solidus::criteria

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "heat/iteration/heat_solver.hpp"
-#include "heat/iteration/heat_system.hpp"
 #include "heat/loads/stage_loads.hpp"
-#include "heat/storage/nodal_enthalpy.hpp"
+#include "heat/thermal_parts.hpp"
 #include "material/time_integration.hpp"
 #include "numbers/index_casts.hpp"
 #include "parallel/parallel.hpp"
@@ -46,13 +44,13 @@ StepSensitivity::StepSensitivity(ThermalPhase& phase, bool exact, double accurac
     : phase_(phase), exact_(exact), accuracy_(accuracy) {
   // Only with these settings the heat of a node is one known curve of its temperature, along which
   // derivatives are taken.
-  if (!phase.nodal() || phase.consistent_ || phase.printed_)
+  if (!phase.parts().nodal() || phase.parts().consistent || phase.parts().printed)
     throw InputError({}, "derivatives are known where nodes hold the heat",
                      "heat.integration = \"closed\" and heat.sensible = \"enthalpy\"");
-  if (phase.system_->parts().enclosed.any())
+  if (phase.parts().system->parts().enclosed.any())
     throw InputError({}, "derivatives are not known where surfaces see each other",
                      "radiation = \"ambient\" in all thermal conditions");
-  if (phase.system_->parts().channels.any())
+  if (phase.parts().system->parts().channels.any())
     throw InputError({}, "derivatives are not known where channels cool", "a case without [[channel]]");
 }
 
@@ -64,7 +62,7 @@ void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, 
   // stage that is rejected leaves them where they were.
   std::vector<Neighbour> moved;
   for (const NeighbourPhase& n : neighbours) moved.push_back({n.phase, &n.state, n.state});
-  phase_.solver_->begin(true);
+  phase_.parts().solver->begin(true);
   if (flows.share == 1) {
     advance_stage({flows.dt, 0, LoadWindow::backward_euler(flows.time - flows.dt, flows.time)}, old, old, now,
                   moved);
@@ -79,7 +77,7 @@ void StepSensitivity::advance(const ThermalState& old, const StageFlows& flows, 
                   old, middle, now, moved);
   }
   for (std::size_t i = 0; i < moved.size(); ++i) neighbours[i].state = std::move(moved[i].before);
-  phase_.solver_->release();
+  phase_.parts().solver->release();
 }
 
 /// Conditions, and limits of conduction, of a stage: those of the run's temperatures for all phases.
@@ -89,10 +87,10 @@ void StepSensitivity::begin(ThermalPhase& phase, const Stage& stage, const Therm
   phase.begin_stage({stage.dt, stage.carried}, from.temperature);
   // Both phases of a pair have to see the same window of loads and the same limits, else the difference of
   // their residuals would hold jumps of a switch in place of a derivative.
-  phase.system_->parts().exchanges = true;
-  phase.system_->set_window(stage.loads);
+  phase.parts().system->parts().exchanges = true;
+  phase.parts().system->set_window(stage.loads);
   phase.limit_conduction(before, old);
-  phase.system_->limits().find(now.temperature);
+  phase.parts().system->limits().find(now.temperature);
 }
 
 /// f += F of a stage that ends in `end`.
@@ -102,7 +100,7 @@ void StepSensitivity::add_residual(ThermalPhase& phase, const Stage& stage, cons
   // The heat content is counted from the start of the stage, of which a second-order stage carries a part of
   // the first one over; all rates are in watts.
   std::vector<double> r(f.size());
-  phase.system_->residual(end.temperature, r);
+  phase.parts().system->residual(end.temperature, r);
   for (std::size_t i = 0; i < f.size(); ++i) {
     const double from = old.enthalpy[i] + stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
     f[i] += r[i] + (end.enthalpy[i] - from) / stage.dt;
@@ -114,7 +112,7 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
   // The order matters: the system of the run's phase is set up, its residual taken and its matrix assembled
   // at the same state, and each neighbour then uses that one matrix.
   begin(phase_, stage, before, old, before, now);
-  const std::size_t n = as_size(phase_.mesh_.n_owned_nodes);
+  const std::size_t n = as_size(phase_.parts().mesh.n_owned_nodes);
   // What the run's own iteration has left of F is not the neighbours' to remove.
   std::vector<double> left(n);
   add_residual(phase_, stage, old, before, now, left);
@@ -135,7 +133,7 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
       // Only what the neighbour's residual has more than the run's counts, and rows of prescribed
       // temperatures have none.
       for (std::size_t i = 0; i < n; ++i)
-        f[i] = phase_.system_->parts().prescribed.fixed()[i] ? 0.0 : f[i] - left[i];
+        f[i] = phase_.parts().system->parts().prescribed.fixed()[i] ? 0.0 : f[i] - left[i];
       const double size = std::sqrt(dot(f, f));
       if (k == 0) at_first = size;
       // Corrections end when the rest is small enough, or when they gain nothing: the
@@ -158,33 +156,33 @@ ThermalState StepSensitivity::guess(const ThermalPhase& phase, const ThermalStat
   ThermalState end = now;
   // Heats are kept and temperatures shifted by the difference of the two curves, so that the iteration starts
   // where a changed latent heat or capacity is accounted for already.
-  for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
-    end.temperature[as_size(i)] += phase.storage_->temperature(i, now.enthalpy[as_size(i)]) -
-                                   phase_.storage_->temperature(i, now.enthalpy[as_size(i)]);
+  for (Index i = 0; i < phase.parts().mesh.n_owned_nodes; ++i)
+    end.temperature[as_size(i)] += phase.parts().storage->temperature(i, now.enthalpy[as_size(i)]) -
+                                   phase_.parts().storage->temperature(i, now.enthalpy[as_size(i)]);
   // Prescribed temperatures go in last, since the neighbour may prescribe others, and heat has to stay within
   // the range of its curve at such a temperature.
-  phase.ghosts_.update(end.temperature, 1);
-  phase.system_->parts().prescribed.prescribe(end.temperature);
-  for (Index i = 0; i < phase.mesh_.n_owned_nodes; ++i)
-    if (phase.system_->parts().prescribed.fixed()[as_size(i)])
+  phase.parts().ghosts.update(end.temperature, 1);
+  phase.parts().system->parts().prescribed.prescribe(end.temperature);
+  for (Index i = 0; i < phase.parts().mesh.n_owned_nodes; ++i)
+    if (phase.parts().system->parts().prescribed.fixed()[as_size(i)])
       end.enthalpy[as_size(i)] =
-          std::clamp(now.enthalpy[as_size(i)], phase.storage_->lower(i, end.temperature[as_size(i)]),
-                     phase.storage_->upper(i, end.temperature[as_size(i)]));
+          std::clamp(now.enthalpy[as_size(i)], phase.parts().storage->lower(i, end.temperature[as_size(i)]),
+                     phase.parts().storage->upper(i, end.temperature[as_size(i)]));
   return end;
 }
 
 /// K in the matrix of the run's phase, rows of δv = 0 held.
 void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
-  HeatSystem& system = *phase_.system_;
-  const NodalEnthalpy& storage = *phase_.storage_;
+  HeatSystem& system = *phase_.parts().system;
+  const NodalEnthalpy& storage = *phase_.parts().storage;
   const NodalPotential& potential = system.parts().elements.nodal();
-  const std::size_t n = as_size(phase_.mesh_.n_owned_nodes);
+  const std::size_t n = as_size(phase_.parts().mesh.n_owned_nodes);
   // The unknown is a potential v of the temperature Θ, in which conduction is nearly symmetric. Its slope
   // dv/dΘ turns steps of v into those of Θ; ghosts need it for the rows at seams.
   slope_.assign(now.temperature.size(), 1.0);
   if (!potential.identity()) {
     for (std::size_t i = 0; i < n; ++i) slope_[i] = potential.slope(as_index(i), now.temperature[i]);
-    phase_.ghosts_.update(slope_, 1);
+    phase_.parts().ghosts.update(slope_, 1);
   }
   system.assemble_symmetric(now.temperature, slope_);
   to_heat_.assign(n, 0.0);
@@ -208,11 +206,11 @@ void StepSensitivity::linearise(const Stage& stage, const ThermalState& now) {
 /// K δv, zero in rows that are held.
 void StepSensitivity::multiply(std::vector<double>& step, std::vector<double>& product) const {
   // Ghosts have to be current: rows of owned nodes reach into neighbouring processes.
-  phase_.ghosts_.update(step, 1);
+  phase_.parts().ghosts.update(step, 1);
   // The matrix stands for its symmetric part alone, and the rest of the tangent is added to the product entry
   // by entry.
-  phase_.system_->matrix().multiply(step, product);
-  for (const UnsymmetricPart::Entry& e : phase_.system_->parts().unsymmetric.entries())
+  phase_.parts().system->matrix().multiply(step, product);
+  for (const UnsymmetricPart::Entry& e : phase_.parts().system->parts().unsymmetric.entries())
     product[as_size(e.row)] += e.value * step[as_size(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i)
     if (held_[i]) product[i] = 0;
@@ -226,9 +224,9 @@ bool StepSensitivity::factorise() {
   const bool small = held_.size() == slope_.size() && held_.size() <= k_most_factorised;
   if (!small || parallel::global_sum(1.0) > 1) return false;
   std::vector<linear::SparseFactors::Entry> further;
-  for (const UnsymmetricPart::Entry& e : phase_.system_->parts().unsymmetric.entries())
+  for (const UnsymmetricPart::Entry& e : phase_.parts().system->parts().unsymmetric.entries())
     further.push_back({e.row, e.column, e.value});
-  return factors_.factorise(phase_.system_->matrix(), further, held_);
+  return factors_.factorise(phase_.parts().system->matrix(), further, held_);
 }
 
 /// K δv = −f.
@@ -239,14 +237,14 @@ void StepSensitivity::solve(std::span<const double> f, std::vector<double>& step
   std::vector<double> b(held_.size());
   for (std::size_t i = 0; i < b.size(); ++i) b[i] = held_[i] ? 0.0 : -f[i];
   factors_.solve(b, std::span(step).first(b.size()));
-  phase_.ghosts_.update(step, 1);
+  phase_.parts().ghosts.update(step, 1);
 }
 
 /// K δv = −f by generalised conjugate residuals (Eisenstat, Elman and Schultz 1983) with the symmetric matrix
 /// for preconditioner: the first direction is the solution where nothing is unsymmetric.
 /// @param first  the matrix has not been solved with yet
 void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& step, bool first) {
-  HeatSystem& system = *phase_.system_;
+  HeatSystem& system = *phase_.parts().system;
   const std::size_t n = held_.size();
   std::vector<double> left(n);
   // The right side starts as the whole residual, from which the share along each direction is taken away.
@@ -264,8 +262,8 @@ void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& st
     const std::span<double> owned = std::span(d.step).first(n);
     // The iteration for the unsymmetric part corrects what the linear solver leaves.
     const linear::LinearReport report = std::exchange(first, false)
-                                            ? phase_.solver_->solve(system.matrix(), left, owned)
-                                            : phase_.solver_->solve_again(left, owned, 0);
+                                            ? phase_.parts().solver->solve(system.matrix(), left, owned)
+                                            : phase_.parts().solver->solve_again(left, owned, 0);
     // A linear system that does not converge rejects the step: its derivative would be wrong without a sign
     // of it.
     if (!report.converged)
@@ -293,7 +291,7 @@ void StepSensitivity::iterate(std::span<const double> f, std::vector<double>& st
     if (std::sqrt(dot(left, left)) <= target) break;
     directions.push_back(std::move(d));
   }
-  phase_.ghosts_.update(step, 1);
+  phase_.parts().ghosts.update(step, 1);
 }
 
 /// Moves the end of the stage by δv.
@@ -301,9 +299,9 @@ void StepSensitivity::follow(const Stage& stage, std::span<const double> f, std:
                              ThermalState& end) const {
   // The products are needed without the rows of plateaus set to zero, for these are the rows that tell how
   // much heat such a node takes up.
-  HeatSystem& system = *phase_.system_;
+  HeatSystem& system = *phase_.parts().system;
   std::vector<double> product(held_.size());
-  phase_.system_->matrix().multiply(step, product);
+  phase_.parts().system->matrix().multiply(step, product);
   for (const UnsymmetricPart::Entry& e : system.parts().unsymmetric.entries())
     product[as_size(e.row)] += e.value * step[as_size(e.column)];
   for (std::size_t i = 0; i < held_.size(); ++i) {
@@ -317,8 +315,8 @@ void StepSensitivity::follow(const Stage& stage, std::span<const double> f, std:
       end.temperature[i] += step[i] / slope_[i];
     }
   }
-  phase_.ghosts_.update(end.enthalpy, 1);
-  phase_.ghosts_.update(end.temperature, 1);
+  phase_.parts().ghosts.update(end.enthalpy, 1);
+  phase_.parts().ghosts.update(end.temperature, 1);
 }
 
 }  // namespace solidus::heat

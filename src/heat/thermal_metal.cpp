@@ -6,9 +6,7 @@
 #include <cassert>
 #include <vector>
 
-#include "heat/iteration/heat_solver.hpp"
-#include "heat/iteration/heat_system.hpp"
-#include "heat/storage/nodal_enthalpy.hpp"
+#include "heat/thermal_parts.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mesh/shape.hpp"
 #include "numbers/index_casts.hpp"
@@ -29,28 +27,30 @@ constexpr double k_gas_capacity = 450;       ///< ρ c_p [J/(m³ K)]
 std::vector<double> ThermalPhase::at_least_gas(const MovedMetal& metal) const {
   // A capacity of the metal at 20 °C says what share of it the gas has.
   double least = 1;
-  for (std::size_t body = 0; body < materials_.size(); ++body)
+  for (std::size_t body = 0; body < parts_->materials.size(); ++body)
     if (metal.moves[body] != 0)
-      least = std::min(least, k_gas_capacity / storage_->body_curve(static_cast<int>(body)).capacity(293.15));
+      least = std::min(least,
+                       k_gas_capacity / parts_->storage->body_curve(static_cast<int>(body)).capacity(293.15));
   std::vector<double> held(metal.held.begin(), metal.held.end());
   for (double& share : held) share = std::max(share, least);
   return held;
 }
 
 void ThermalPhase::move_metal(const MovedMetal& metal, ThermalState* state) {
-  assert(options_.integration == HeatIntegration::closed && options_.sensible == SensibleForm::enthalpy);
+  assert(parts_->options.integration == HeatIntegration::closed &&
+         parts_->options.sensible == SensibleForm::enthalpy);
   std::vector<double> held = at_least_gas(metal);
   if (state != nullptr && !carry_heat(metal.moves, held, *state)) return;
-  storage_->hold(metal.moves, held);
+  parts_->storage->hold(metal.moves, held);
   // Temperatures follow from the heats where metal has come or gone.
   if (state != nullptr) {
-    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      if (held[as_size(i)] != held_at(i))
-        state->temperature[as_size(i)] = storage_->temperature(i, state->enthalpy[as_size(i)]);
-    ghosts_.update(state->temperature, 1);
-    ghosts_.update(state->enthalpy, 1);
+    for (Index i = 0; i < parts_->mesh.n_owned_nodes; ++i)
+      if (held[as_size(i)] != parts_->held_at(i))
+        state->temperature[as_size(i)] = parts_->storage->temperature(i, state->enthalpy[as_size(i)]);
+    parts_->ghosts.update(state->temperature, 1);
+    parts_->ghosts.update(state->enthalpy, 1);
   }
-  held_ = std::move(held);
+  parts_->held = std::move(held);
   share_conduction(metal);
 }
 
@@ -59,22 +59,22 @@ void ThermalPhase::move_metal(const MovedMetal& metal, ThermalState* state) {
 bool ThermalPhase::carry_heat(std::span<const char> moves, std::span<const double> held,
                               ThermalState& state) const {
   // First the sums: heat that leaves, and room whose metal arrives.
-  std::vector<double> change(as_size(mesh_.n_owned_nodes), 0.0);
+  std::vector<double> change(as_size(parts_->mesh.n_owned_nodes), 0.0);
   std::array<double, 2> sums{};
   auto& [leaves, arrives] = sums;
-  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const double before = held_at(i), gain = held[as_size(i)] - before;
+  for (Index i = 0; i < parts_->mesh.n_owned_nodes; ++i) {
+    const double before = parts_->held_at(i), gain = held[as_size(i)] - before;
     if (gain == 0) continue;
     double room = 0;
     for (std::size_t body = 0; body < moves.size(); ++body)
-      if (moves[body] != 0) room += storage_->volume(i, static_cast<int>(body));
+      if (moves[body] != 0) room += parts_->storage->volume(i, static_cast<int>(body));
     if (room == 0) continue;
     if (gain > 0) {
       change[as_size(i)] = gain * room;
       arrives += gain * room;
     } else {
       const double heat =
-          storage_->heat_of(moves, i, state.enthalpy[as_size(i)], state.temperature[as_size(i)]);
+          parts_->storage->heat_of(moves, i, state.enthalpy[as_size(i)], state.temperature[as_size(i)]);
       change[as_size(i)] = heat * gain / before;
       leaves -= change[as_size(i)];
     }
@@ -82,8 +82,8 @@ bool ThermalPhase::carry_heat(std::span<const char> moves, std::span<const doubl
   processes::sum(sums);
   if (!(arrives > 0)) return false;
   // Then each node that gets metal has its part of that heat.
-  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    const bool gets = held[as_size(i)] > held_at(i);
+  for (Index i = 0; i < parts_->mesh.n_owned_nodes; ++i) {
+    const bool gets = held[as_size(i)] > parts_->held_at(i);
     state.enthalpy[as_size(i)] += gets ? change[as_size(i)] / arrives * leaves : change[as_size(i)];
   }
   return true;
@@ -91,10 +91,10 @@ bool ThermalPhase::carry_heat(std::span<const char> moves, std::span<const doubl
 
 /// Gives each element of metal the mean conductivity of what fills it, by the mean of its nodes.
 void ThermalPhase::share_conduction(const MovedMetal& metal) {
-  ConductionElements& elements = system_->parts().elements;
+  ConductionElements& elements = parts_->system->parts().elements;
   bool any = false;
-  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    const mesh::ElementBlock& block = mesh_.blocks[b];
+  for (std::size_t b = 0; b < parts_->mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = parts_->mesh.blocks[b];
     if (metal.moves[as_size(block.body)] == 0) continue;
     const double gas = k_gas_conductivity / elements.potentials()[as_size(block.body)].reference();
     const Index n = mesh::node_count(block.shape);
@@ -109,8 +109,8 @@ void ThermalPhase::share_conduction(const MovedMetal& metal) {
   }
   // As long as nothing is empty conduction is as it was assembled.
   if (!parallel::any_process(any)) return;
-  system_->parts().conduction.forget();
-  solver_->forget();
+  parts_->system->parts().conduction.forget();
+  parts_->solver->forget();
 }
 
 }  // namespace solidus::heat

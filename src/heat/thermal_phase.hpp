@@ -30,26 +30,19 @@
 #include "heat/loads/thermal_state.hpp"
 #include "heat/loads/time_error.hpp"
 #include "heat/storage/sensible_form.hpp"
+#include "heat/thermal_states.hpp"
 #include "linear/active_set.hpp"
 #include "linear/contribution.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
-#include "numbers/index_casts.hpp"
 #include "numbers/load_window.hpp"
 #include "numbers/types.hpp"
 
 namespace solidus::heat {
 
-class HeatSystem;
-class HeatSolver;
-class HeatSpread;
 class NodalEnthalpy;
-class TruncatedNewton;
-class TemperatureSystem;
-class PointStorage;
-class PrintedHeat;
-class ConsistentHeat;
 class ThermalIteration;
+struct ThermalParts;
 
 enum class HeatIntegration {
   closed,  ///< heat content at the nodes, conduction of quads and hexes too: no over- or undershoot
@@ -156,33 +149,6 @@ class ThermalPhase {
   /// enthalpies, without bodies that come or leave. Collective.
   /// @param state  gets the heat; null: it has it already
   void move_metal(const MovedMetal& metal, ThermalState* state);
-  /// Heat of the active bodies, counted from 20 °C [J]. With the open rule by the weights of the nodes.
-  /// Collective.
-  double heat_content(const ThermalState& state) const;
-  /// Bodies and nodes that are active in the present stage.
-  const linear::ActiveSet& active() const;
-
-  /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
-  /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
-  ThermalState initial_state(std::span<const double> body_temperature) const;
-  /// Bodies with an enthalpy per volume of their own at each of their nodes; with the open rule of bodies
-  /// that store at Gauss points the temperature for it is interpolated from there.
-  /// @param enthalpy  h(node, body) [J/m³], by the curves of storage().body_enthalpy(), of owned nodes
-  ThermalState initial_state_of(const std::function<double(Index node, int body)>& enthalpy) const;
-  /// From nodal temperatures [K], [local node], ghosts up to date.
-  ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
-
-  /// The longest time from `from` on, up to `to`, after which every load that moves overlaps with three
-  /// fifths of itself (placed_load.hpp); infinite where none moves that far. Collective.
-  double lasting_loads(double from, double to) const;
-
-  /// Gives bodies that burn the power of the step that begins (heat/loads/exothermic.hpp), constant in all
-  /// its passes.
-  /// @param state  at the start of the step; empty: nothing burns
-  void begin_burning(const BurningState& state, double begin, double end);
-  /// The burning state at the end of that step, from the temperatures at its ends; empty if `state` is.
-  BurningState burnt(const BurningState& state, const ThermalState& before, const ThermalState& after,
-                     double begin, double end) const;
 
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be `old` or the
   /// iterate. Prescribed temperatures hold at t_{n+1}; at the temperature of an isothermal change such a node
@@ -190,22 +156,6 @@ class ThermalPhase {
   /// the iteration fails; the place is the node of the largest residual. The same where a temperature is not
   /// above 0 K; the place is the coldest node.
   ThermalReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
-  /// Whether reports hold the state between the two stages of a step (StageFlows), from here on.
-  void keep_stages(bool on) { keeps_stages_ = on; }
-  /// HeatOptions::stepping.
-  ThermalStepping stepping() const { return options_.stepping.value_or(ThermalStepping::backward_euler); }
-  /// The flow into the nodes at the end of a step, from its known flows, [local node], ghosts up to date [W]:
-  /// what time_error() of the next step asks for. Collective.
-  std::vector<double> flow_at_end(const StageFlows& flows) const;
-  /// The error in time of the step that ended in `now`, whose flows must be known: the heat of
-  /// heat::time_error(), spread for as long as its last stage is, through contributions as they are.
-  /// [local node] [K]. Collective.
-  /// @param flow_before  flow_at_end() of the step before
-  std::vector<double> time_error(const ThermalState& now, const StageFlows& flows,
-                                 std::span<const double> flow_before);
-  /// (H_b − H_a)/C, without latent heat in C: what the change of heat comes to in kelvin, [local node],
-  /// ghosts up to date. Where nodes hold the heat. Collective.
-  std::vector<double> change_in_kelvin(const ThermalState& a, const ThermalState& b) const;
   /// The first pass.
   ThermalReport solve(const ThermalState& old, ThermalState& trial, double time, double dt) {
     return solve(old, trial, {.time = time, .dt = dt});
@@ -214,52 +164,18 @@ class ThermalPhase {
   /// hold the temperature of every body (prescribed, film, radiation, contact).
   ThermalReport solve_steady(const ThermalState& start, ThermalState& trial, double time);
 
-  /// The step piece by piece, for an iteration that has further unknowns; refers to this phase.
-  std::unique_ptr<ThermalIteration> iteration();
-
-  /// The temperatures around the bodies at a time, prescribed, of films and of radiation, beyond which
-  /// nothing is heated or cooled; without end where fluxes, sources or contributions can. Collective.
-  /// @param with_contributions  false: the caller knows whether contributions heat
-  TemperatureRange ambient_range(double time, bool with_contributions = true) const;
-  /// The same with contributions that heat, whose nodes count with these temperatures, [local node]: friction
-  /// makes nothing hotter than what rubs. Collective.
-  TemperatureRange range_around(double time, std::span<const double> temperature) const;
-
-  /// Plateau shares: the shares of isothermal changes that are done at the nodes at their temperature, from 0
-  /// (cold) to 1 (hot); one at other nodes. Temperature and plateau share together determine how much of
-  /// every material has changed: PhaseFraction::value. [local node], ghosts up to date; empty where no
-  /// material has such a change. Collective.
-  std::vector<double> plateau_share(const ThermalState& state) const;
-  /// Solid fraction of the materials around each node that can melt, 1 if none can; [local node].
-  std::vector<double> solid_fraction(const ThermalState& state) const;
-  /// Mean over the volume of a body, over all processes.
-  double mean_solid_fraction(const ThermalState& state, int body) const;
-  /// Mean over the volume of all bodies that can melt, 1 if none can.
-  double mean_solid_fraction(const ThermalState& state) const;
-  /// Change of the entropy of sensible and latent heat, ∫ dH/Θ over all bodies [J/K]. Temperatures above
-  /// zero. Collective.
-  EntropyChange entropy_change(const ThermalState& from, const ThermalState& to) const;
-  /// Sensible and latent heat of a state, counted from a zero of the materials [J]. Collective.
-  double enthalpy(const ThermalState& state) const;
-  /// Mean temperature of a body over its volume [K].
-  double mean_temperature(const ThermalState& state, int body) const;
-
-  /// Drops what the linear solver carried over from earlier steps.
-  void forget();
-  const mesh::Mesh& mesh() const { return mesh_; }
+  const mesh::Mesh& mesh() const;
+  /// How states begin, and what they tell.
+  const ThermalStates& states() const { return states_; }
+  /// What the phase consists of.
+  ThermalParts& parts() const { return *parts_; }
   /// Heat content of the nodes; with the open rule too, of bodies that store at Gauss points for what it says
   /// of fractions and volumes.
-  const NodalEnthalpy& storage() const { return *storage_; }
-  std::size_t bytes() const;
-  double seconds_solver() const;
+  const NodalEnthalpy& storage() const;
 
  private:
   friend class ThermalIteration;
   friend class StepSensitivity;
-  /// Makes everything from the mesh.
-  void build(const ThermalConditions& conditions);
-  /// Makes the matrix again where a contribution asks for it; then true. Collective.
-  bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
   /// @param residual  at the solution, [owned node] [W]
   linear::NewtonReport solve_temperature(std::span<double> temperature, std::span<double> residual,
@@ -299,17 +215,10 @@ class ThermalPhase {
   /// The start of a step: prescribed temperatures hold, and heats are those of their temperatures.
   /// @param all  false: of the prescribed ones alone
   ThermalState start(const ThermalState& old, const LoadWindow& loads, bool all = true);
-  /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
-  /// material has an isothermal change.
-  bool nodal() const { return truncated_newton_ != nullptr; }
   /// A pass of so many Newton steps has taken them.
   static bool may_end(const linear::NewtonReport& report, int newton_steps) {
     return newton_steps > 0 && report.out_of_iterations;
   }
-  /// Whether a body stores its heat at the nodes.
-  bool at_nodes(int body) const;
-  std::unique_ptr<PointStorage> store_at_points(const mesh::ElementBlock& block) const;
-  double heat_at(const ThermalState& state, Index node) const;
   double take_out(const linear::ActiveSet& active, ThermalState& state) const;
   double put_in(const linear::ActiveSet& before, const std::function<double(Index, int)>& fresh,
                 ThermalState& state) const;
@@ -317,32 +226,52 @@ class ThermalPhase {
   std::vector<double> at_least_gas(const MovedMetal& metal) const;
   bool carry_heat(std::span<const char> moves, std::span<const double> held, ThermalState& state) const;
   void share_conduction(const MovedMetal& metal);
-  double held_at(Index node) const { return held_.empty() ? 1.0 : held_[as_size(node)]; }
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const linear::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;
   /// Throws StepRejected on all processes where a temperature is not above zero.
   void require_positive(std::span<const double> temperature) const;
 
-  const mesh::Mesh& mesh_;
-  AnalysisKind kind_;
-  HeatOptions options_;
-  std::vector<material::Material> materials_;
-  std::vector<linear::Contribution*> contributions_;
-  parallel::GhostExchange ghosts_;
-  std::unique_ptr<NodalEnthalpy> storage_;
-  std::vector<double> held_;  ///< of move_metal(), but for what gas stores, [owned node]; empty: one
-  std::unique_ptr<NodalEnthalpy> at_nodes_;  ///< of bodies that store there, where it is not all of them
-  // The last contributions, in this order.
-  std::unique_ptr<PrintedHeat> printed_;        ///< of bodies that store at the nodes, with a printed form
-  std::unique_ptr<ConsistentHeat> consistent_;  ///< of the other bodies, where some store at the nodes
-  std::unique_ptr<HeatSystem> system_;
-  std::vector<std::unique_ptr<PointStorage>> points_;  ///< of bodies that store there: open rule only
-  std::unique_ptr<HeatSolver> solver_;
-  std::unique_ptr<TruncatedNewton> truncated_newton_;
-  std::unique_ptr<TemperatureSystem> temperature_system_;
-  std::unique_ptr<HeatSpread> spread_;
-  bool keeps_stages_ = false;
+  std::unique_ptr<ThermalParts> parts_;
+  ThermalStates states_;
 };
+
+/// HeatOptions::stepping.
+ThermalStepping stepping(const ThermalPhase& phase);
+/// Bodies and nodes that are active in the present stage.
+const linear::ActiveSet& active(const ThermalPhase& phase);
+/// The longest time from `from` on, up to `to`, after which every load that moves overlaps with three
+/// fifths of itself (placed_load.hpp); infinite where none moves that far. Collective.
+double lasting_loads(const ThermalPhase& phase, double from, double to);
+/// Gives bodies that burn the power of the step that begins (heat/loads/exothermic.hpp), constant in all
+/// its passes.
+/// @param state  at the start of the step; empty: nothing burns
+void begin_burning(ThermalPhase& phase, const BurningState& state, double begin, double end);
+/// The burning state at the end of that step, from the temperatures at its ends; empty if `state` is.
+BurningState burnt(const ThermalPhase& phase, const BurningState& state, const ThermalState& before,
+                   const ThermalState& after, double begin, double end);
+/// The temperatures around the bodies at a time, prescribed, of films and of radiation, beyond which
+/// nothing is heated or cooled; without end where fluxes, sources or contributions can. Collective.
+/// @param with_contributions  false: the caller knows whether contributions heat
+TemperatureRange ambient_range(const ThermalPhase& phase, double time, bool with_contributions = true);
+/// The same with contributions that heat, whose nodes count with these temperatures, [local node]: friction
+/// makes nothing hotter than what rubs. Collective.
+TemperatureRange range_around(const ThermalPhase& phase, double time, std::span<const double> temperature);
+/// The flow into the nodes at the end of a step, from its known flows, [local node], ghosts up to date [W]:
+/// what time_error() of the next step asks for. Collective.
+std::vector<double> flow_at_end(const ThermalPhase& phase, const StageFlows& flows);
+/// The error in time of the step that ended in `now`, whose flows must be known: the heat of
+/// heat::time_error(), spread for as long as its last stage is, through contributions as they are.
+/// [local node] [K]. Collective.
+/// @param flow_before  flow_at_end() of the step before
+std::vector<double> time_error(ThermalPhase& phase, const ThermalState& now, const StageFlows& flows,
+                               std::span<const double> flow_before);
+/// (H_b − H_a)/C, without latent heat in C: what the change of heat comes to in kelvin, [local node],
+/// ghosts up to date. Where nodes hold the heat. Collective.
+std::vector<double> change_in_kelvin(const ThermalPhase& phase, const ThermalState& a, const ThermalState& b);
+/// Drops what the linear solver carried over from earlier steps.
+void forget(ThermalPhase& phase);
+/// Memory of the phase.
+std::size_t bytes(const ThermalPhase& phase);
 
 }  // namespace solidus::heat

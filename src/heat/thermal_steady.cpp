@@ -6,16 +6,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "heat/iteration/heat_exchange.hpp"
 #include "heat/iteration/heat_rejected.hpp"
-#include "heat/iteration/heat_solver.hpp"
-#include "heat/iteration/heat_system.hpp"
-#include "heat/iteration/temperature_system.hpp"
-#include "heat/iteration/truncated_newton.hpp"
 #include "heat/iteration/worst_node.hpp"
-#include "heat/storage/consistent_heat.hpp"
-#include "heat/storage/nodal_enthalpy.hpp"
-#include "heat/storage/point_storage.hpp"
-#include "heat/storage/printed_heat.hpp"
+#include "heat/thermal_parts.hpp"
 #include "heat/thermal_phase.hpp"
 #include "linear/newton.hpp"
 #include "numbers/index_casts.hpp"
@@ -43,45 +37,46 @@ void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
 ThermalReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
   // A steady state has no storage. The first solution is without limits of conduction, since smooth fields
   // need none.
-  assert(start.temperature.size() == mesh_.x.size());
-  follow_graph();
-  system_->set_window(LoadWindow::at(time));
-  system_->parts().exchanges = true;
-  solver_->begin(false);
+  assert(start.temperature.size() == parts_->mesh.x.size());
+  parts_->follow_graph();
+  parts_->system->set_window(LoadWindow::at(time));
+  parts_->system->parts().exchanges = true;
+  parts_->solver->begin(false);
   std::vector<double> temperature = start.temperature;
-  system_->parts().prescribed.prescribe(temperature);
-  temperature_system_->use_storage(false);
-  if (consistent_) consistent_->use(false);
+  parts_->system->parts().prescribed.prescribe(temperature);
+  parts_->temperature_system->use_storage(false);
+  if (parts_->consistent) parts_->consistent->use(false);
   ThermalReport report;
-  std::vector<double> residual(as_size(mesh_.n_owned_nodes));
+  std::vector<double> residual(as_size(parts_->mesh.n_owned_nodes));
   const TemperatureRange range = limit_conduction({temperature, {}}, start).range;
-  system_->limits().clear();  // a linear field, say, needs none
+  parts_->system->limits().clear();  // a linear field, say, needs none
   report.newton = solve_steady_balance(temperature, residual);
-  const double moved = temperature_system_->moved();
+  const double moved = parts_->temperature_system->moved();
   // Limits are then found and the system solved again until they stay, and nodes that leave the range lose
   // their share.
-  for (int i = 0; i < k_steady_revisions && system_->limits().find(temperature, k_limit_change * moved); ++i)
-    add_iterations(report.newton, solve_steady_balance(temperature, residual));
   for (int i = 0;
-       i < k_steady_revisions && system_->limits().hold(temperature, range) == HeldNodes::Found::further;
+       i < k_steady_revisions && parts_->system->limits().find(temperature, k_limit_change * moved); ++i)
+    add_iterations(report.newton, solve_steady_balance(temperature, residual));
+  for (int i = 0; i < k_steady_revisions &&
+                  parts_->system->limits().hold(temperature, range) == HeldNodes::Found::further;
        ++i) {
-    system_->limits().find(temperature);
+    parts_->system->limits().find(temperature);
     add_iterations(report.newton, solve_steady_balance(temperature, residual));
   }
   // The balance is that of the last residual.
   report.balance = measure(temperature, residual, 1.0);
-  report.balance.exchanged = temperature_system_->moved();
+  report.balance.exchanged = parts_->temperature_system->moved();
   report.channels = channel_readings(1.0);
-  trial = initial_state_at_nodes(temperature);
+  trial = states_.initial_at_nodes(temperature);
   return report;
 }
 
 /// The solution of the steady balance, with what surfaces that see each other radiate and the fluid of
 /// channels by fixed-point iteration.
 linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temperature, std::span<double> r) {
-  HeatParts& parts = system_->parts();
+  HeatParts& parts = parts_->system->parts();
   if (!parts.enclosed.any() && !parts.channels.any()) return solve_temperature(temperature, r);
-  system_->begin_exchange(temperature);
+  begin_exchange(parts_->system->parts(), temperature);
   linear::NewtonReport report;
   std::vector<double> left(r.size());
   for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
@@ -90,7 +85,8 @@ linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temper
       add_iterations(report, std::move(last));
     else
       report = std::move(last);
-    if (system_->follow_exchange(temperature, k_settled_steady_radiation, k_settled_steady_fluid, left))
+    if (follow_exchange(parts_->system->parts(), temperature, k_settled_steady_radiation,
+                        k_settled_steady_fluid, left))
       return report;
   }
   reject_exchange(k_settled_steady_radiation, k_settled_steady_fluid);
@@ -98,7 +94,7 @@ linear::NewtonReport ThermalPhase::solve_steady_balance(std::span<double> temper
 
 void ThermalPhase::reject_exchange(double tolerance, double tolerance_of_fluid) {
   throw StepRejected(
-      system_->parts().channels.any()
+      parts_->system->parts().channels.any()
           ? fmt::format(
                 "heat: the fluid of the channels has not settled to {:g} K, or radiation to {:g} K, in "
                 "{} iterations",
@@ -113,19 +109,19 @@ linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperatu
                                                      int newton_steps) {
   // The tolerance is that of the open rule; the linear systems are solved far, because an iteration costs as
   // much as many of theirs.
-  temperature_system_->residual(temperature, r);
-  temperature_system_->tangent(temperature);
+  parts_->temperature_system->residual(temperature, r);
+  parts_->temperature_system->tangent(temperature);
   linear::NewtonOptions newton;
-  newton.tolerance = options_.tolerance > 0 ? options_.tolerance : k_point_tolerance;
+  newton.tolerance = parts_->options.tolerance > 0 ? parts_->options.tolerance : k_point_tolerance;
   newton.effort_tolerance = k_point_tolerance;
   newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
-  newton.absolute_tolerance = temperature_system_->round_off(temperature);
-  newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
-  const linear::NewtonReport report =
-      linear::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,
-                     k_one_component, temperature, newton);
+  newton.absolute_tolerance = parts_->temperature_system->round_off(temperature);
+  newton.max_iterations = newton_steps > 0 ? newton_steps : parts_->options.max_iterations;
+  const linear::NewtonReport report = linear::newton(
+      *parts_->temperature_system, *parts_->temperature_system->solver(parts_->solver->strong()),
+      parts_->ghosts, k_one_component, temperature, newton);
   // The residual is evaluated once more at the solution, since the report of the balance is made of it.
-  temperature_system_->residual(temperature, r);
+  parts_->temperature_system->residual(temperature, r);
   require_positive(temperature);
   if (!may_end(report, newton_steps)) require(report, r, temperature);
   return report;
@@ -136,19 +132,19 @@ void ThermalPhase::require(const linear::NewtonReport& report, std::span<const d
   if (report.converged) return;
   WorstNode worst;
   for (std::size_t i = 0; i < residual.size(); ++i)
-    if (!system_->parts().prescribed.fixed()[i]) worst.look(i, std::abs(residual[i]));
-  throw HeatRejected("heat: " + report.reason, worst.text(mesh_, temperature, residual), Failure::heat,
+    if (!parts_->system->parts().prescribed.fixed()[i]) worst.look(i, std::abs(residual[i]));
+  throw HeatRejected("heat: " + report.reason, worst.text(parts_->mesh, temperature, residual), Failure::heat,
                      temperature, worst.owned());
 }
 
 void ThermalPhase::require_positive(std::span<const double> temperature) const {
   WorstNode coldest;
-  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) coldest.look(i, -temperature[i]);
+  for (std::size_t i = 0; i < as_size(parts_->mesh.n_owned_nodes); ++i) coldest.look(i, -temperature[i]);
   const double lowest = -parallel::global_max(coldest.size);
   if (lowest > 0) return;
   throw HeatRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)
                                            : "heat: the temperature is not a number",
-                     coldest.text(mesh_, temperature, {}), Failure::temperature, temperature,
+                     coldest.text(parts_->mesh, temperature, {}), Failure::temperature, temperature,
                      coldest.owned());
 }
 

@@ -6,16 +6,9 @@
 #include <optional>
 
 #include "heat/iteration/extrapolation_guard.hpp"
-#include "heat/iteration/heat_solver.hpp"
-#include "heat/iteration/heat_spread.hpp"
-#include "heat/iteration/heat_system.hpp"
-#include "heat/iteration/temperature_system.hpp"
-#include "heat/iteration/truncated_newton.hpp"
+#include "heat/iteration/heat_exchange.hpp"
 #include "heat/loads/stage_loads.hpp"
-#include "heat/storage/consistent_heat.hpp"
-#include "heat/storage/nodal_enthalpy.hpp"
-#include "heat/storage/point_storage.hpp"
-#include "heat/storage/printed_heat.hpp"
+#include "heat/thermal_parts.hpp"
 #include "heat/thermal_phase.hpp"
 #include "material/time_integration.hpp"
 #include "numbers/index_casts.hpp"
@@ -85,15 +78,15 @@ void keep_middle(ThermalState& middle, StageFlows& flows) {
 }  // namespace
 
 ThermalReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
-  assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
+  assert(old.temperature.size() == parts_->mesh.x.size() && pass.dt > 0);
   // Contact may have changed the graph. An adiabatic pass exchanges nothing: the nodes only take what
   // deformation has warmed.
-  follow_graph();
-  solver_->begin(true);
-  system_->parts().exchanges = !pass.adiabatic;
+  parts_->follow_graph();
+  parts_->solver->begin(true);
+  parts_->system->parts().exchanges = !pass.adiabatic;
   ThermalState next;
   ThermalReport report;
-  const bool flows = nodal() && !pass.adiabatic;
+  const bool flows = parts_->nodal() && !pass.adiabatic;
   // A step has one stage or two. The flow at its end is kept for the error estimate of the next one.
   if (pass.stepping == ThermalStepping::sdirk2) {
     report = solve_two_stages(old, pass, next);
@@ -118,7 +111,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   const linear::RungeKuttaStage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
       rest{pass.dt - first.dt, 1};
   // Flows of the stages are kept for estimates of the error in time.
-  const bool flows = nodal() && !pass.adiabatic;
+  const bool flows = parts_->nodal() && !pass.adiabatic;
   // The first stage, backward Euler over its share of the step.
   ThermalState middle;
   ThermalPass to_middle = part_of(pass, first_loads(pass.time, pass.dt));
@@ -132,9 +125,9 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   bool second_order = true;
   // By the closed rule extrapolation is watched: the range of surroundings over both stages bounds what it
   // may lead to.
-  if (flows && options_.integration == HeatIntegration::closed) {
-    around = surroundings_to(last_loads(pass.time, pass.dt, true), *system_);
-    guard.emplace(*system_, *storage_, old, middle);
+  if (flows && parts_->options.integration == HeatIntegration::closed) {
+    around = surroundings_to(last_loads(pass.time, pass.dt, true), *parts_->system);
+    guard.emplace(*parts_->system, *parts_->storage, old, middle);
     second_order = !pass.within_range || !guard->extrapolates_too_far(around);
   }
   // The second stage takes the means of loads over its own part of the step.
@@ -143,16 +136,14 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   // Afterwards the temperatures themselves tell; then the second stage is solved again, as backward Euler.
   const auto overshoots = [&] {
     if (!pass.within_range) return guard->overshoots(next, around, k_far_overshoot);
-    return guard->overshoots(next, around) || guard->turns_back(next, ghosts_);
+    return guard->overshoots(next, around) || guard->turns_back(next, parts_->ghosts);
   };
   if (second_order && guard && overshoots()) {
     second_order = false;
     to_end.loads = last_loads(pass.time, pass.dt, false);
     // The history of the first stage is built again, because the second one has overwritten it.
     begin_stage(first, old.temperature);
-    const ThermalReport before = std::move(last);
-    last = solve_stage(old, middle, rest, to_end, next);
-    add_effort(before, last);
+    add_effort(std::exchange(last, solve_stage(old, middle, rest, to_end, next)), last);
   }
   if (!second_order)
     logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
@@ -160,7 +151,7 @@ ThermalReport ThermalPhase::solve_two_stages(const ThermalState& old, const Ther
   if (flows) stage_flows.last = flow(stage_start(old, middle, stage), next, stage);
   stage_flows.second_order = second_order;
   stage_flows.last_share = stage.dt / pass.dt;
-  if (flows && keeps_stages_) keep_middle(middle, stage_flows);
+  if (flows && parts_->keeps_stages) keep_middle(middle, stage_flows);
   // Sums of both stages are the step's.
   add_stage(report, stage.carried, last);
   report.flows = std::move(stage_flows);
@@ -173,20 +164,20 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
                                         ThermalState& next) {
   begin_stage(stage, before.temperature);
   // H* itself lies so far ahead at a front that the iteration begins half way to it.
-  const bool half_way = nodal() && stage.carried != 0 && pass.iterate == nullptr;
+  const bool half_way = parts_->nodal() && stage.carried != 0 && pass.iterate == nullptr;
   next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.window(), !half_way);
   ThermalReport report;
-  if (!nodal()) {
+  if (!parts_->nodal()) {
     // By the open rule points keep the heats; the unknown is temperature.
-    for (const auto& block : points_) {
+    for (const auto& block : parts_->points) {
       block->start(old.temperature, stage.dt);
       if (stage.carried != 0) block->extrapolate(before.temperature, stage.carried);
     }
-    temperature_system_->use_storage(true);
-    std::vector<double> residual(as_size(mesh_.n_owned_nodes));
+    parts_->temperature_system->use_storage(true);
+    std::vector<double> residual(as_size(parts_->mesh.n_owned_nodes));
     report.newton = solve_temperature(next.temperature, residual, pass.newton_steps);
     report.hardest = report.newton.effort;
-    report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
+    report.balance = balance(old, next, residual, parts_->temperature_system->moved(), stage.dt);
     return report;
   }
   // The sources of a stage: nodal heats H* from which it stores.
@@ -194,15 +185,15 @@ ThermalReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalSt
   if (half_way) start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   std::vector<double> changed = solve_balance(from, stage.dt, before, old, pass, next, report);
   report.hardest = report.newton.effort;
-  std::vector<double> residual = truncated_newton_->take_residual();
+  std::vector<double> residual = parts_->truncated_newton->take_residual();
   require_positive(next.temperature);
   // After the iteration what is left of the residual is booked into the nodal heats, so that the
   // balance is exact whatever the tolerance.
   if (!may_end(report.newton, pass.newton_steps)) require(report.newton, residual, next.temperature);
   book(residual, stage.dt, next.enthalpy);
   if (!changed.empty()) book_exchange(changed, stage.dt, next.enthalpy, residual);
-  report.balance =
-      balance({old.temperature, std::move(from)}, next, residual, truncated_newton_->moved(), stage.dt);
+  report.balance = balance({old.temperature, std::move(from)}, next, residual,
+                           parts_->truncated_newton->moved(), stage.dt);
   if (!pass.adiabatic) report.channels = channel_readings(stage.dt);
   return report;
 }
@@ -215,20 +206,21 @@ std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from,
                                                 const ThermalState& before, const ThermalState& old,
                                                 const ThermalPass& pass, ThermalState& next,
                                                 ThermalReport& report) {
-  HeatParts& parts = system_->parts();
+  HeatParts& parts = parts_->system->parts();
   const bool follows = (parts.enclosed.any() || parts.channels.any()) && !pass.adiabatic;
-  std::vector<double> changed(follows ? as_size(mesh_.n_owned_nodes) : 0);
-  if (follows) system_->begin_exchange(next.temperature);
+  std::vector<double> changed(follows ? as_size(parts_->mesh.n_owned_nodes) : 0);
+  if (follows) begin_exchange(parts_->system->parts(), next.temperature);
   for (int iteration = 1; iteration <= k_most_radiation_iterations; ++iteration) {
     // Each one starts from the temperatures of the one before; Newton's iterations of all count together.
     const ConductionBounds bounds = limit_conduction(before, old, pass.keeps_limits);
     const linear::NewtonReport newton_before = std::move(report.newton);
     report.newton =
-        truncated_newton_->solve(from, dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
+        parts_->truncated_newton->solve(from, dt, next.temperature, next.enthalpy, bounds, pass.newton_steps);
     if (iteration > 1) report.newton.add_solves(newton_before);
     if (!follows) return changed;
     require_positive(next.temperature);
-    if (system_->follow_exchange(next.temperature, k_settled_radiation, k_settled_fluid, changed))
+    if (follow_exchange(parts_->system->parts(), next.temperature, k_settled_radiation, k_settled_fluid,
+                        changed))
       return changed;
   }
   reject_exchange(k_settled_radiation, k_settled_fluid);
@@ -240,11 +232,11 @@ std::vector<double> ThermalPhase::solve_balance(const std::vector<double>& from,
 void ThermalPhase::book_exchange(std::span<const double> changed, double dt, std::span<double> heat,
                                  std::span<double> residual) const {
   for (std::size_t i = 0; i < changed.size(); ++i)
-    if (system_->parts().prescribed.fixed()[i])
+    if (parts_->system->parts().prescribed.fixed()[i])
       residual[i] -= changed[i];
     else
       heat[i] += dt * changed[i];
-  ghosts_.update(heat, 1);
+  parts_->ghosts.update(heat, 1);
 }
 
 /// H* of a stage: H_n + carried (H − H_n) with the H of `before`.
@@ -261,35 +253,35 @@ ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalSta
 // store heat.
 std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
                                        const linear::RungeKuttaStage& stage) const {
-  std::vector<double> flow(as_size(mesh_.n_owned_nodes));
+  std::vector<double> flow(as_size(parts_->mesh.n_owned_nodes));
   for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
-  const std::span<const double> stored = system_->parts().contributions.stored();
+  const std::span<const double> stored = parts_->system->parts().contributions.stored();
   for (std::size_t i = 0; i < stored.size(); ++i) flow[i] += stored[i];
   return flow;
 }
 
 ThermalState ThermalPhase::start(const ThermalState& old, const LoadWindow& loads, bool all) {
-  system_->set_window(loads);
+  parts_->system->set_window(loads);
   ThermalState next{old.temperature, old.enthalpy};
-  system_->parts().prescribed.prescribe(next.temperature);
-  if (nodal())
-    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      if (all || system_->parts().prescribed.fixed()[as_size(i)])
+  parts_->system->parts().prescribed.prescribe(next.temperature);
+  if (parts_->nodal())
+    for (Index i = 0; i < parts_->mesh.n_owned_nodes; ++i)
+      if (all || parts_->system->parts().prescribed.fixed()[as_size(i)])
         next.enthalpy[as_size(i)] =
-            std::clamp(old.enthalpy[as_size(i)], storage_->lower(i, next.temperature[as_size(i)]),
-                       storage_->upper(i, next.temperature[as_size(i)]));
+            std::clamp(old.enthalpy[as_size(i)], parts_->storage->lower(i, next.temperature[as_size(i)]),
+                       parts_->storage->upper(i, next.temperature[as_size(i)]));
   return next;
 }
 
 /// Starts the iteration from heats instead of temperatures, where it is free.
 void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) const {
-  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
-    if (system_->parts().prescribed.fixed()[i]) continue;
+  for (std::size_t i = 0; i < as_size(parts_->mesh.n_owned_nodes); ++i) {
+    if (parts_->system->parts().prescribed.fixed()[i]) continue;
     next.enthalpy[i] = heat[i];
-    next.temperature[i] = storage_->temperature(as_index(i), heat[i]);
+    next.temperature[i] = parts_->storage->temperature(as_index(i), heat[i]);
   }
-  ghosts_.update(next.enthalpy, 1);
-  ghosts_.update(next.temperature, 1);
+  parts_->ghosts.update(next.enthalpy, 1);
+  parts_->ghosts.update(next.temperature, 1);
 }
 
 /// Limits conduction for a stage from `before`, with the prescribed temperatures of the time set; returns the
@@ -297,50 +289,52 @@ void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) 
 ConductionBounds ThermalPhase::limit_conduction(const ThermalState& before, const ThermalState& old,
                                                 bool keep) {
   std::vector<double> temperature = before.temperature;
-  system_->parts().prescribed.prescribe(temperature);
+  parts_->system->parts().prescribed.prescribe(temperature);
   if (!keep) {
-    system_->limits().use(options_.bounds);
-    system_->limits().release();  // the limits follow from the state alone
-    system_->limits().find(temperature);
+    parts_->system->limits().use(parts_->options.bounds);
+    parts_->system->limits().release();  // the limits follow from the state alone
+    parts_->system->limits().find(temperature);
   }
   TemperatureRange start;
-  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) {
+  for (std::size_t i = 0; i < as_size(parts_->mesh.n_owned_nodes); ++i) {
     start.lowest = std::min({start.lowest, temperature[i], old.temperature[i]});
     start.highest = std::max({start.highest, temperature[i], old.temperature[i]});
   }
   start = {parallel::global_min(start.lowest), parallel::global_max(start.highest)};
-  const TemperatureRange around = system_->limits().ambient();
+  const TemperatureRange around = parts_->system->limits().ambient();
   return {{std::min(start.lowest, around.lowest), std::max(start.highest, around.highest)}, start, keep};
 }
 
 void ThermalPhase::begin_stage(const linear::RungeKuttaStage& stage, std::span<const double> before) {
-  for (linear::Contribution* contribution : contributions_) contribution->begin_stage(stage, before);
+  for (linear::Contribution* contribution : parts_->contributions) contribution->begin_stage(stage, before);
 }
 
 void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {
   for (std::size_t i = 0; i < residual.size(); ++i)
-    if (!system_->parts().prescribed.fixed()[i]) heat[i] -= dt * residual[i];
-  ghosts_.update(heat, 1);
+    if (!parts_->system->parts().prescribed.fixed()[i]) heat[i] -= dt * residual[i];
+  parts_->ghosts.update(heat, 1);
 }
 
-std::vector<double> ThermalPhase::flow_at_end(const StageFlows& flows) const {
+std::vector<double> flow_at_end(const ThermalPhase& phase, const StageFlows& flows) {
   std::vector<double> flow = flows.last;
-  flow.resize(mesh_.x.size());
-  ghosts_.update(flow, 1);
+  flow.resize(phase.parts().mesh.x.size());
+  phase.parts().ghosts.update(flow, 1);
   return flow;
 }
 
-std::vector<double> ThermalPhase::time_error(const ThermalState& now, const StageFlows& flows,
-                                             std::span<const double> flow_before) {
-  system_->parts().exchanges = true;
-  system_->set_window(LoadWindow::over(flows.time - flows.last_share * flows.dt, flows.time));
-  return (*spread_)(heat::time_error(flows, flow_before), now.temperature, flows.last_share * flows.dt);
+std::vector<double> time_error(ThermalPhase& phase, const ThermalState& now, const StageFlows& flows,
+                               std::span<const double> flow_before) {
+  phase.parts().system->parts().exchanges = true;
+  phase.parts().system->set_window(LoadWindow::over(flows.time - flows.last_share * flows.dt, flows.time));
+  return (*phase.parts().spread)(heat::time_error(flows, flow_before), now.temperature,
+                                 flows.last_share * flows.dt);
 }
 
-std::vector<double> ThermalPhase::change_in_kelvin(const ThermalState& a, const ThermalState& b) const {
-  std::vector<double> heat(as_size(mesh_.n_owned_nodes));
+std::vector<double> change_in_kelvin(const ThermalPhase& phase, const ThermalState& a,
+                                     const ThermalState& b) {
+  std::vector<double> heat(as_size(phase.parts().mesh.n_owned_nodes));
   for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = b.enthalpy[i] - a.enthalpy[i];
-  return spread_->at_once(heat, b.temperature);
+  return phase.parts().spread->at_once(heat, b.temperature);
 }
 
 }  // namespace solidus::heat

@@ -75,7 +75,7 @@ void CoupledSolver::reset() {
 }
 
 double CoupledSolver::seconds() const {
-  return solver_.seconds_setup() + solver_.seconds_solve();
+  return solver_.seconds().sum();
 }
 
 }  // namespace solidus::linear

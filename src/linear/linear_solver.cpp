@@ -171,13 +171,10 @@ bool LinearSolver::stale() const {
   return implementation_->stale;
 }
 
-double LinearSolver::seconds_setup() const {
+SolverSeconds LinearSolver::seconds() const {
   const Implementation& my = *implementation_;
-  return my.seconds_setup + (my.rescue ? my.rescue->seconds_setup() : 0);
-}
-double LinearSolver::seconds_solve() const {
-  const Implementation& my = *implementation_;
-  return my.seconds_solve + (my.rescue ? my.rescue->seconds_solve() : 0);
+  const SolverSeconds of_rescue = my.rescue ? my.rescue->seconds() : SolverSeconds{};
+  return {my.seconds_setup + of_rescue.setup, my.seconds_solve + of_rescue.solve};
 }
 
 }  // namespace solidus::linear

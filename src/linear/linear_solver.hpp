@@ -42,6 +42,12 @@ struct LinearReport {
   std::string reason;  ///< PETSc's words when it did not converge
 };
 
+/// Time that a linear solver has taken [s].
+struct SolverSeconds {
+  double setup = 0, solve = 0;
+  double sum() const { return setup + solve; }
+};
+
 /// Interface that Newton's method requires of a solver of K d = −r.
 class TangentSolver {
  public:
@@ -56,8 +62,8 @@ class TangentSolver {
   virtual void forget() = 0;
   /// The next matrix has another pattern: nothing stays.
   virtual void reset() = 0;
-  virtual double seconds_setup() const = 0;
-  virtual double seconds_solve() const = 0;
+  /// Spent so far.
+  virtual SolverSeconds seconds() const = 0;
 };
 
 class LinearSolver : public TangentSolver {
@@ -88,8 +94,7 @@ class LinearSolver : public TangentSolver {
   bool stale() const;
   void forget() override;
   void reset() override;
-  double seconds_setup() const override;
-  double seconds_solve() const override;
+  SolverSeconds seconds() const override;
 
  private:
   struct Implementation;

@@ -61,6 +61,31 @@ Sym<T> choose(const Mask& mask, const Sym<T>& a, const Sym<T>& b) {
 
 bool trusted = false;
 
+/// The library's tangent is by its own components; place and factor bring it to ours (engineering shear
+/// strains and their order).
+template <class T>
+void bring_to_our_components(const auto& factor, const auto& place, Sym4<T>& tangent) {
+  const Sym4<T> of_library = tangent;
+  const T* const entries = of_library.c[0].data();
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) tangent.c[i][j] = T(factor[6 * i + j]) * entries[place[6 * i + j]];
+}
+
+/// Whether an answer of the library is a number throughout.
+template <class T>
+auto all_finite(const auto& answer, std::span<const T> energies, const T& dissipated, bool with_tangent) {
+  const T zero(0.0);
+  // Zero, or not a number where one of the values is not finite.
+  T check = zero * dissipated, check_of_tangent = zero;
+  for (int i = 0; i < 6; ++i) {
+    check += zero * answer.stress[i];
+    if (with_tangent)
+      for (std::size_t j = 0; j < 6; ++j) check_of_tangent += zero * answer.tangent[i][j];
+  }
+  for (const T& value : energies) check += zero * value;
+  return check + check_of_tangent == zero;
+}
+
 }  // namespace
 
 std::string ExternalData::path() const {
@@ -171,24 +196,8 @@ void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym
     r.status = Status::cut_the_step;
     return;
   }
-  // The library's tangent is by its own components; place and factor bring it to ours (engineering
-  // shear strains and their order).
-  if (space.wants_tangent) {
-    const Sym4<T> of_library = r.tangent;
-    const T* const entries = of_library.c[0].data();
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t j = 0; j < 6; ++j)
-        r.tangent.c[i][j] = T(tangent_factor_[6 * i + j]) * entries[tangent_place_[6 * i + j]];
-  }
-  // Zero, or not a number where one of the values is not finite.
-  T check = zero * dissipated, check_of_tangent = zero;
-  for (int i = 0; i < 6; ++i) {
-    check += zero * r.stress[i];
-    if (space.wants_tangent)
-      for (std::size_t j = 0; j < 6; ++j) check_of_tangent += zero * r.tangent[i][j];
-  }
-  for (std::size_t i = k_energies; i < size(); ++i) check += zero * now[i];
-  const auto finite = check + check_of_tangent == zero;
+  if (space.wants_tangent) bring_to_our_components<T>(tangent_factor_, tangent_place_, r.tangent);
+  const auto finite = all_finite<T>(r, {now + k_energies, now + size()}, dissipated, space.wants_tangent);
   if (any(!finite)) {
     r.status = Status::cut_the_step;
     for (int lane = 0; space.failures != nullptr && lane < k_points<T>; ++lane)

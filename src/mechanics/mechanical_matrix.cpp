@@ -88,7 +88,7 @@ void MechanicalMatrix::bind() {
 }
 
 void MechanicalMatrix::create_solver() {
-  if (solver_) seconds_before_ += solver_->seconds_setup() + solver_->seconds_solve();
+  if (solver_) seconds_before_ += solver_->seconds().sum();
   saddle_ = nullptr;
   if (bodies_.pressure) {
     auto solver = std::make_unique<SaddleSolver>(
@@ -106,7 +106,7 @@ void MechanicalMatrix::create_solver() {
 }
 
 double MechanicalMatrix::seconds() const {
-  return seconds_before_ + solver_->seconds_setup() + solver_->seconds_solve();
+  return seconds_before_ + solver_->seconds().sum();
 }
 
 std::size_t MechanicalMatrix::bytes() const {

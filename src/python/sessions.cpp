@@ -239,7 +239,7 @@ class Driver {
   bool is_criterion(const std::string& name) const {
     const criteria::Criteria* criteria = session_->made().assembly.phases.criteria;
     if (criteria == nullptr) return false;
-    const std::vector<const quantities::Quantity*> fields = criteria->fields();
+    const std::vector<const quantities::Quantity*> fields = criteria::fields_of(*criteria);
     return std::any_of(fields.begin(), fields.end(), [&](const auto* field) { return field->name == name; });
   }
 

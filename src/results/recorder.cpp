@@ -8,6 +8,7 @@
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
 #include "criteria/quantities.hpp"
+#include "heat/thermal_parts.hpp"
 #include "results/answers/stress_jump.hpp"
 #include "results/formats/vtkhdf.hpp"
 #include "results/output/output_error.hpp"
@@ -84,12 +85,12 @@ bool samples_criteria(const Probe& probe, const std::vector<const quantities::Qu
 
 /// Whether a criterion of the run shows a field.
 bool follows(const coupling::Phases& phases, const quantities::Quantity& field) {
-  return phases.criteria != nullptr && std::ranges::count(phases.criteria->fields(), &field) > 0;
+  return phases.criteria != nullptr && std::ranges::count(criteria::fields_of(*phases.criteria), &field) > 0;
 }
 
 bool samples_criteria(const coupling::Phases& phases, const std::vector<Probe>& probes) {
   if (phases.criteria == nullptr) return false;
-  const std::vector<const quantities::Quantity*> fields = phases.criteria->fields();
+  const std::vector<const quantities::Quantity*> fields = criteria::fields_of(*phases.criteria);
   return std::any_of(probes.begin(), probes.end(),
                      [&](const Probe& p) { return samples_criteria(p, fields); });
 }
@@ -165,7 +166,7 @@ std::vector<Reading> Recorder::readings() const {
 
 double Recorder::heat_of_bodies(const coupling::State& state) const {
   return (options_.shots || phases_.growth != nullptr) && phases_.heat != nullptr
-             ? phases_.heat->heat_content(state.heat)
+             ? phases_.heat->states().heat_content(state.heat)
              : 0.0;
 }
 
@@ -328,7 +329,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (!options_.steady) {
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);
-    if (phases_.criteria != nullptr) s.criteria = phases_.criteria->findings(state.criteria);
+    if (phases_.criteria != nullptr) s.criteria = criteria::findings_of(*phases_.criteria, state.criteria);
     add_errors(mesh_, phases_, state, fields_.bodies(), last_.step, *s.answers, s.criteria);
     if (tables_.shots) s.answers->shots = tables_.shots->rows();
     if (options_.fixed_steps && last_.largest_error[0] > 0) s.answers->step_error = last_.largest_error;
@@ -387,8 +388,8 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   s.seconds.emplace_back("output", seconds_.output);
   s.seconds.emplace_back("run", processes::wall_time() - seconds_.began);
   if (phases_.heat != nullptr) {
-    s.seconds.emplace_back("heat_solver", phases_.heat->seconds_solver());
-    s.table_bytes.emplace_back("heat", phases_.heat->bytes());
+    s.seconds.emplace_back("heat_solver", phases_.heat->parts().solver->seconds());
+    s.table_bytes.emplace_back("heat", heat::bytes(*phases_.heat));
   }
   if (phases_.mechanics != nullptr) {
     s.seconds.emplace_back("mechanics_assembly", phases_.mechanics->equations().seconds().assembly);
@@ -403,9 +404,9 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
     s.table_bytes.emplace_back("contact " + pair->parts().spec.name, pair->bytes());
   s.balance = balance(mesh_, s.seconds);
   if (phases_.criteria != nullptr) {
-    s.criteria = phases_.criteria->findings(state.criteria);
+    s.criteria = criteria::findings_of(*phases_.criteria, state.criteria);
     s.seconds.emplace_back("criteria", phases_.criteria->seconds());
-    s.table_bytes.emplace_back("criteria", phases_.criteria->bytes());
+    s.table_bytes.emplace_back("criteria", criteria::bytes(*phases_.criteria));
   }
   const FieldSet written = fields_.bodies().select(options_.fields);
   for (const Field& field : written.all())

@@ -41,7 +41,7 @@ void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state
   if (warned_) return;
   // The bounds hold what any time so far brought as an initial or boundary temperature; without sources and
   // deformation heat conduction cannot leave them.
-  const heat::TemperatureRange around = phase_.range_around(state.time, state.heat.temperature);
+  const heat::TemperatureRange around = heat::range_around(phase_, state.time, state.heat.temperature);
   range_.lowest = std::min(range_.lowest, around.lowest);
   range_.highest = std::max(range_.highest, around.highest);
   heat::WorstNode worst;

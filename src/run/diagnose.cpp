@@ -45,7 +45,7 @@ void describe_node(const setup::Assembly& a, const coupling::State& last, Index 
   // numbers.
   const std::vector<double> coherency = coupling::coherency_of(a.phases, last.heat);
   const std::vector<double> solid =
-      a.heat ? a.heat->solid_fraction(last.heat) : std::vector<double>(a.mesh.x.size(), 1.0);
+      a.heat ? a.heat->states().solid_fraction(last.heat) : std::vector<double>(a.mesh.x.size(), 1.0);
   const std::vector<double>& temperature = a.heat ? last.heat.temperature : a.phases.temperature;
   const int owner = owner_of(node);
   if (owner < 0) return;
@@ -154,7 +154,7 @@ void find_contact_heat(const setup::Assembly& a, const coupling::State& last, In
 /// Whether a temperature is above all that bodies were poured at and that is around them: flow has heated it.
 bool heated_by_flow(const setup::Assembly& a, const coupling::State& last, double temperature) {
   constexpr double k_beyond = 100;  // [K]
-  double hottest = a.heat->ambient_range(last.time, false).highest;
+  double hottest = heat::ambient_range(*a.heat, last.time, false).highest;
   for (const setup::InitialTemperatureRange& body : a.start) hottest = std::max(hottest, body.high);
   return temperature > hottest + k_beyond;
 }
@@ -246,7 +246,7 @@ Diagnosis diagnose(const cases::CaseSpec& spec, setup::Assembly& a, const std::s
   }
   if (d.physics == coupling::Physics::multipliers) {
     d.detail = rejected.reason();
-    if (a.heat) d.solid_fraction = a.heat->mean_solid_fraction(last.heat, static_cast<int>(*body));
+    if (a.heat) d.solid_fraction = a.heat->states().mean_solid_fraction(last.heat, static_cast<int>(*body));
   }
   return d;
 }

@@ -93,7 +93,7 @@ void RangeWatch::look(const coupling::State& state) {
   // The range of temperatures of each body that takes part, over all processes.
   std::vector<double> low(spec_.bodies.size(), 1e300), high(spec_.bodies.size(), -1e300);
   for (const mesh::ElementBlock& block : a_.mesh.blocks) {
-    if (a_.heat && !a_.heat->active().body(block.body)) continue;
+    if (a_.heat && !heat::active(*a_.heat).body(block.body)) continue;
     for (const Index i : block.nodes) {
       const auto b = as_size(block.body);
       low[b] = std::min(low[b], temperature[as_size(i)]);

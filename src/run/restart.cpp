@@ -41,7 +41,7 @@ std::optional<results::Checkpoint> checkpoint(const cases::CaseSpec& spec, const
                      "a smaller 'periodic' in the cycle");
   constexpr double k_solid = 1 - 1e-12;
   const bool solid = spec.time.until == cases::TimeSpec::Until::solid && a.heat &&
-                     a.heat->mean_solid_fraction(found.state.heat) >= k_solid;
+                     a.heat->states().mean_solid_fraction(found.state.heat) >= k_solid;
   if (solid && results::is_finished(options.folder))
     throw InputError(
         spec.time.where,

@@ -9,6 +9,7 @@
 
 #include "cases/case_materials.hpp"
 #include "heat/quantities.hpp"
+#include "heat/thermal_parts.hpp"
 #include "mechanics/quantities.hpp"
 #include "results/fields/state_fields.hpp"
 #include "results/tables/probes.hpp"
@@ -143,7 +144,7 @@ Sensitivities::Sensitivities(const setup::Case& base, const setup::Assembly& a,
     for (const results::CsvColumn& column : probed)
       columns.push_back({column.header() + " by " + n.name, ""});
   }
-  if (a.phases.heat != nullptr) a.phases.heat->keep_stages(true);
+  if (a.phases.heat != nullptr) a.phases.heat->parts().keeps_stages = true;
   steps_.emplace(twin_ ? twin_->a.phases : a.phases, std::move(followed));
   // The table is opened by the first process alone: two that wrote one file would spoil it.
   if (processes::rank() == 0) table_.emplace(file, std::move(columns));

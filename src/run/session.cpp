@@ -9,6 +9,7 @@
 #include "cases/case_keys.hpp"
 #include "cases/case_materials.hpp"
 #include "cases/overrides.hpp"
+#include "cases/source_law.hpp"
 #include "cases/stage_input.hpp"
 #include "check/case_overview.hpp"
 #include "check/findings.hpp"
@@ -91,7 +92,7 @@ struct Session::Parts {
   }
   coupling::Simulation& simulation() { return transient->simulation(); }
   void commit() {
-    if (begun && simulation().pending()) simulation().commit_step();
+    if (begun && simulation().present().pending) simulation().commit_step();
   }
   /// The next step, after changes of conditions and with the size that is wanted.
   std::optional<RunResult> take(std::optional<double> step) {
@@ -245,6 +246,7 @@ void Session::change(const std::string& assignment) {
   cases::CaseSpec spec;
   cases::case_keys().assign(spec, document);
   cases::resolve_stages(spec);
+  cases::set_powers(spec);
   setup::check_case(spec);
   cases::vary_conditions(spec);
   p.c.document = std::move(document);
@@ -255,18 +257,18 @@ void Session::change(const std::string& assignment) {
 }
 
 bool Session::pending() const {
-  return parts_->begun && parts_->simulation().pending();
+  return parts_->begun && parts_->simulation().present().pending;
 }
 
 const coupling::State& Session::state() const {
   if (parts_->steady) return *parts_->steady;
-  return parts_->begun  ? parts_->simulation().state()
+  return parts_->begun  ? parts_->simulation().present().state
          : parts_->from ? parts_->from->state
                         : parts_->a.initial;
 }
 
 const coupling::StepRecord& Session::record() const {
-  return parts_->begun ? parts_->simulation().record() : parts_->steady_record;
+  return parts_->begun ? parts_->simulation().present().record : parts_->steady_record;
 }
 
 Session::Made Session::made() const {

@@ -145,34 +145,37 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
   if (spec.has_heat()) simulation_.add(watches_.first_law);
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
+  coupling::Followers& goes_along = simulation_.followers();
   // Criteria, loads and burning are followed by the simulation itself, since their state belongs to it.
-  if (a.criteria) simulation_.follow(*a.criteria);
-  if (a.heat) simulation_.follow_loads(*a.heat);
-  if (a.growth) simulation_.follow_growth(*a.growth);
-  if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
+  if (a.criteria) goes_along.criteria = a.criteria.get();
+  if (a.heat) goes_along.loads = a.heat.get();
+  if (a.growth) goes_along.growth = a.growth.get();
+  if (!a.initial.burning.lit.empty()) goes_along.burning = a.heat.get();
   if (a.heat && a.criteria && spec.feeding.moves_heat)
-    simulation_.follow_metal([&a, moves = setup::followed_bodies(spec, a.materials, a.start)](
-                                 coupling::State& state, bool has_moved) {
+    goes_along.moves_heat = [&a, moves = setup::followed_bodies(spec, a.materials, a.start)](
+                                coupling::State& state, bool has_moved) {
       const criteria::NodalMetal metal = criteria::metal_at_nodes(state.criteria);
       if (metal.held.empty()) return;
       const std::span<const double> owned = std::span(metal.held).first(as_size(a.mesh.n_owned_nodes));
       a.heat->move_metal({moves, owned, metal.filled}, has_moved ? nullptr : &state.heat);
-    });
-  simulation_.stop_when(options.stop_asked);
+    };
+  goes_along.stop_asked = options.stop_asked;
   // Failures are explained by diagnose(), stages are set up by apply(): both need the case, which the
   // simulation does not know.
-  simulation_.diagnose_by([this](const coupling::State& last, const StepRejected& rejected, double dt) {
+  goes_along.diagnose = [this](const coupling::State& last, const StepRejected& rejected, double dt) {
     return diagnose(spec_, a_, watches_.melts ? watches_.melts->ran_out() : std::string(), last, rejected,
                     dt);
-  });
-  simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
+  };
+  goes_along.stage_begins = [this](std::size_t stage, const coupling::StageStart& start,
+                                   coupling::State* begins) {
     return setup::apply(spec_, stage, start.displacement, begins, a_);
-  });
+  };
   if (coupling::has_internal_energy(a.phases, true))
-    simulation_.follow_internal_energy(
-        [this](const coupling::State& state) { return coupling::internal_energy(a_.phases, state); });
+    goes_along.internal_energy = [this](const coupling::State& state) {
+      return coupling::internal_energy(a_.phases, state);
+    };
   shots_ = shot_map(spec, a);
-  if (shots_) simulation_.follow_shots(*shots_);
+  if (shots_) goes_along.shots = &*shots_;
 }
 
 void Transient::begin(std::optional<results::Checkpoint> from) {
@@ -182,7 +185,7 @@ void Transient::begin(std::optional<results::Checkpoint> from) {
   simulation_.begin(
       std::move(start),
       [this](const coupling::State& state) {
-        return a_.heat ? a_.heat->mean_solid_fraction(state.heat) : 1.0;
+        return a_.heat ? a_.heat->states().mean_solid_fraction(state.heat) : 1.0;
       },
       from ? std::optional(from->continuation) : std::nullopt);
 }
@@ -201,9 +204,9 @@ std::optional<RunResult> Transient::result(std::optional<coupling::Outcome> outc
 }
 
 void Transient::change_conditions() {
-  const coupling::StageStart& start = simulation_.stage_start();
+  const coupling::StageStart& start = simulation_.present().stage_start;
   if (!a_.stages.empty()) {
-    setup::apply(spec_, simulation_.stage(), start.displacement, nullptr, a_);
+    setup::apply(spec_, simulation_.present().stage, start.displacement, nullptr, a_);
   } else {
     if (a_.mechanics) a_.mechanics->set_conditions(setup::mechanical_conditions(spec_), start.displacement);
     if (a_.heat) a_.heat->set_conditions(setup::thermal_conditions(spec_));

@@ -163,12 +163,13 @@ void build_heat(const cases::CaseSpec& spec, const InitialTemperatures& start, A
   a.heat = std::make_unique<heat::ThermalPhase>(mesh, spec.analysis.kind, a.materials, conditions, options,
                                                 contributions);
   a.phases.heat = a.heat.get();
-  a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
+  a.initial.heat =
+      a.heat->states().initial_of([&](Index node, int body) { return start.enthalpy(node, body); });
   // Nodes at which nothing has grown yet show what will come.
   if (a.growth) {
     const std::vector<double> to_come = nodal_temperature(spec, start, a);
     for (Index i = 0; i < a.mesh.n_nodes(); ++i)
-      if (!a.heat->active().node(i)) a.initial.heat.temperature[as_size(i)] = to_come[as_size(i)];
+      if (!heat::active(*a.heat).node(i)) a.initial.heat.temperature[as_size(i)] = to_come[as_size(i)];
   }
   // What has burned is part of the state, where something can burn at all.
   const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const cases::ThermalConditionSpec& c) {

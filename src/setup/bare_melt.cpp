@@ -71,7 +71,7 @@ void check_no_bare_melt(const cases::CaseSpec& spec, const Assembly& a, std::siz
       if (!holds(spec, contact, a.mesh, &before) || holds(spec, contact, a.mesh, &now)) continue;
       // The solid fraction is computed when the first such contact is found; most stages have none.
       if (solid.empty()) {
-        solid = a.heat->solid_fraction(begins.heat);
+        solid = a.heat->states().solid_fraction(begins.heat);
         parallel::GhostExchange(a.mesh).update(solid, 1);
       }
       const double area = skin.all;

@@ -7,6 +7,7 @@
 #include "cases/overrides.hpp"
 #include "cases/physics_switch.hpp"
 #include "cases/roles.hpp"
+#include "cases/source_law.hpp"
 #include "cases/stage_input.hpp"
 #include "input/keys.hpp"
 #include "setup/case_layers.hpp"
@@ -93,6 +94,7 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   // Stages first, since conditions refer to them; then checks, then what follows from the whole.
   cases::resolve_stages(result.spec);
   add_jets(result.spec);
+  cases::set_powers(result.spec);
   check_case(result.spec);
   cases::vary_conditions(result.spec);
   cases::decide_physics(result.spec);

@@ -121,7 +121,7 @@ TEST(Memory, HeatIsSetUpAndStepsWithWhatItKeeps) {
     phase = std::make_unique<heat::ThermalPhase>(mesh, AnalysisKind::solid, std::vector{alloy()}, conditions,
                                                  options);
   });
-  heat::ThermalState state = phase->initial_state(std::vector{950.0});
+  heat::ThermalState state = phase->states().initial(std::vector{950.0});
   const double to_step = most_by(
       [&] { phase->solve(state, state, {.time = 2, .dt = 2, .stepping = heat::ThermalStepping::sdirk2}); });
   RecordProperty("to_build", std::to_string(to_build));

@@ -24,7 +24,7 @@ struct QuenchedBar {
   coupling::BodyNorm norm{mesh, AnalysisKind::plane_strain};
   State start;
 
-  QuenchedBar() { start.heat = heat.initial_state(std::vector<double>{800.0}); }
+  QuenchedBar() { start.heat = heat.states().initial(std::vector<double>{800.0}); }
   static material::Material steel() {
     material::Material m;
     m.name = "steel";

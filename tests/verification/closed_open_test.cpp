@@ -55,7 +55,7 @@ double overshoot(const mesh::Mesh& mesh, heat::HeatIntegration rule, double dt,
   // The nodes of the interface start as part of the casting.
   std::vector<double> start;
   for (const mesh::Point& x : mesh.x) start.push_back(x[0] <= k_part * (1 + 1e-12) ? k_hot : k_cold);
-  heat::ThermalState state = phase.initial_state_at_nodes(start);
+  heat::ThermalState state = phase.states().initial_at_nodes(start);
   double worst = 0;
   for (int i = 1; i <= 10; ++i) {
     phase.solve(state, state, i * dt, dt);

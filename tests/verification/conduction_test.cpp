@@ -63,7 +63,7 @@ TEST_P(Order, OfTheSteadyTemperatureInAnAnnulusIsThatOfTheElementPlusOne) {
     conditions.temperatures.push_back({"outer", "x_max", Table(exact.outer_temperature)});
     heat::ThermalPhase phase(mesh, kind_of(shape()), {conductor(Table(50.0))}, conditions,
                              options_of(closed()));
-    heat::ThermalState state = phase.initial_state(std::vector<double>{500.0});
+    heat::ThermalState state = phase.states().initial(std::vector<double>{500.0});
     phase.solve_steady(state, state, 0.0);
     errors.push_back(verification::l2_error(
         mesh, kind_of(shape()), state.temperature,
@@ -88,7 +88,7 @@ TEST_P(Order, OfATransientCosineIsThatOfTheElementPlusOne) {
     heat::ThermalPhase phase(mesh, kind_of(shape()), {conductor(Table(100.0))}, {}, options_of(closed()));
     std::vector<double> start;
     for (const mesh::Point& x : mesh.x) start.push_back(exact.temperature(x[0], 0.0));
-    heat::ThermalState state = phase.initial_state_at_nodes(start);
+    heat::ThermalState state = phase.states().initial_at_nodes(start);
     for (int i = 1; i <= steps; ++i) phase.solve(state, state, i * dt, dt);
     errors.push_back(
         verification::l2_error(mesh, kind_of(shape()), state.temperature,
@@ -116,7 +116,7 @@ TEST(Conduction, IsOfFirstOrderInTheTimeStep) {
                              options_of(false));
     std::vector<double> start;
     for (const mesh::Point& x : mesh.x) start.push_back(exact.temperature(x[0], 0.0));
-    heat::ThermalState state = phase.initial_state_at_nodes(start);
+    heat::ThermalState state = phase.states().initial_at_nodes(start);
     for (int i = 1; i <= steps; ++i) phase.solve(state, state, i * end / steps, end / steps);
     errors.push_back(
         verification::l2_error(mesh, AnalysisKind::plane_strain, state.temperature,
@@ -143,7 +143,7 @@ TEST(Conduction, OfAnAxisymmetricTubeCarriesTheHeatOfTheClosedForm) {
         conditions.temperatures.push_back({"outer", "x_max", Table(exact.outer_temperature)});
         heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric, {conductor(Table(50.0))}, conditions,
                                  options_of(closed));
-        heat::ThermalState state = phase.initial_state(std::vector<double>{500.0});
+        heat::ThermalState state = phase.states().initial(std::vector<double>{500.0});
         heat = phase.solve_steady(state, state, 0.0).balance.conditions[0].heat;
         errors.push_back(
             verification::l2_error(mesh, AnalysisKind::axisymmetric, state.temperature,
@@ -167,7 +167,7 @@ TEST(Conduction, WithAConductivityThatVariesIsExactInOneDimensionAndConvergesQua
       heat::HeatOptions options = options_of(closed);
       options.tolerance = 1e-12;
       heat::ThermalPhase phase(mesh, kind_of(shape), {conductor(k)}, conditions, options);
-      heat::ThermalState state = phase.initial_state(std::vector<double>{500.0});
+      heat::ThermalState state = phase.states().initial(std::vector<double>{500.0});
       const auto report = phase.solve_steady(state, state, 0.0).newton;
       EXPECT_LE(report.iterations, 6) << name_of(shape, closed);
       // Quadratic: the digits about double, once the residual is small and above rounding.
@@ -194,7 +194,7 @@ TEST(Surface, CoolsALumpedBodyByFilmAndRadiationAsTheScalarEquationsSay) {
                               options_of(closed));
     heat::ThermalPhase glowing(mesh, AnalysisKind::plane_strain, {conductor(Table(1e9))}, radiation,
                                options_of(closed));
-    heat::ThermalState a = filmed.initial_state(std::vector<double>{body.start}), b = a;
+    heat::ThermalState a = filmed.states().initial(std::vector<double>{body.start}), b = a;
     const int steps = 20;
     const double dt = 10.0;
     for (int i = 1; i <= steps; ++i) {

@@ -47,7 +47,7 @@ Steady steady(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactPair& p
   options.tolerance = 1e-12;
   options.solver = linear::SolverKind::direct;
   heat::ThermalPhase phase(mesh, kind, bars(), ends(mesh), options, {pair.parts().heat.term()});
-  Steady result{phase.initial_state(std::vector<double>{600, 600}), {}};
+  Steady result{phase.states().initial(std::vector<double>{600, 600}), {}};
   const heat::ThermalState start = result.state;
   result.balance = phase.solve_steady(start, result.state, 1).balance;
   return result;
@@ -194,7 +194,7 @@ TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
     options.integration = nodal ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
     heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, bars(), ends(mesh), options,
                              {pair.parts().heat.term()});
-    heat::ThermalState state = phase.initial_state(std::vector<double>{600, 600});
+    heat::ThermalState state = phase.states().initial(std::vector<double>{600, 600});
     const heat::ThermalReport report = phase.solve_steady(heat::ThermalState(state), state, 1);
     EXPECT_LE(report.newton.iterations, 6) << "quadratic, with the exact tangent";
     // q (R_1 + R_2 + 1/h) = ΔΘ with h of the mean of the two interface temperatures, by bisection.

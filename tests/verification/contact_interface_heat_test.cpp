@@ -128,7 +128,7 @@ TEST(InterfaceHeat, IsStoredWhereOnlyHeatIsComputed) {
   phases.contacts = {&pair};
   coupling::IsothermalSplit scheme(phases);
   coupling::State state;
-  state.heat = phase.initial_state(c.start);
+  state.heat = phase.states().initial(c.start);
   scheme.synchronise(state);
   double worst = 0;
   for (int n = 1; n <= 80; ++n) {

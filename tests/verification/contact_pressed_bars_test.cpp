@@ -149,7 +149,7 @@ Trace simulated(contact::Formulation formulation, double dt,
   phases.contacts = {&pair};
   coupling::IsothermalSplit scheme(phases);
   coupling::State state;
-  state.heat = heat.initial_state(std::vector<double>{k_hot, k_cold});
+  state.heat = heat.states().initial(std::vector<double>{k_hot, k_cold});
   state.mechanics = mechanics.initial_state();
   scheme.synchronise(state);
 

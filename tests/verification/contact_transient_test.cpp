@@ -83,7 +83,7 @@ TEST(TwoHalfSpaces, ThatMeetThroughSpotsAndGasEqualiseAsTheClosedFormSays) {
 
   // Without pressure: the two sides keep their conductance but for what the gas feels of their temperature.
   const double hot = 900, cold = 300, end = 8, dt = 0.02;
-  heat::ThermalState state = phase.initial_state(std::vector<double>{hot, cold});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{hot, cold});
   const double h = contact::HeatTransferLaw(law).at(0, 0, 0.5 * (hot + cold)).value;
   const double e1 = std::sqrt(k_k1 * k_capacity), e2 = std::sqrt(k_k2 * k_capacity);
   double worst = 0;
@@ -218,7 +218,7 @@ Trace simulated(double dt) {
   phases.contacts = {&pair};
   coupling::IsothermalSplit scheme(phases);
   coupling::State state;
-  state.heat = heat.initial_state(std::vector<double>{300, 300});
+  state.heat = heat.states().initial(std::vector<double>{300, 300});
   state.mechanics = mechanics.initial_state();
   scheme.synchronise(state);
 

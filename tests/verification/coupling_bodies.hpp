@@ -145,7 +145,7 @@ class Assembly {
           phases, coupling::SequentialOptions{
                       .order = c.order, .flow = c.thermal_flow, .gap_tolerance = c.gap_tolerance});
 
-    start_.heat = heat_->initial_state(c.start);
+    start_.heat = heat_->states().initial(c.start);
     start_.mechanics = mechanics_->initial_state();
   }
 

@@ -161,7 +161,7 @@ TEST(InternalEnergy, OfTheFieldsAtTheEndLessThatAtTheStartIsHeatAndWork) {
         EXPECT_LT(std::abs(sum.state_defect()), k_closed * sum.heat_exchanged)
             << variant.name << (c.contact ? " casting" : " bar")
             << (rule == heat::HeatIntegration::open ? " open" : "");
-        const double solid = assembly.heat().mean_solid_fraction(state.heat);
+        const double solid = assembly.heat().states().mean_solid_fraction(state.heat);
         EXPECT_TRUE(!c.contact || solid > 0.3) << variant.name << ' ' << solid;
       }
 }

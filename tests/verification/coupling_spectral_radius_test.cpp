@@ -119,7 +119,7 @@ class StepMap {
       for (const std::size_t n : nodes)
         if (i == number) field[n * stride] += scale * disturbance;
     });
-    old.heat = assembly_.heat().initial_state_at_nodes(old.heat.temperature);
+    old.heat = assembly_.heat().states().initial_at_nodes(old.heat.temperature);
     coupling::State trial = old;
     assembly_.scheme().synchronise(old);
     assembly_.scheme().advance(old, trial, dt, dt);

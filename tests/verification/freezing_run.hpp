@@ -22,17 +22,17 @@ inline Fields freeze(const mesh::Mesh& mesh, AnalysisKind kind,
   heat::ThermalPhase phase(mesh, kind, materials, conditions);
   criteria::Freezing freezing(mesh, kind, phase.storage());
   const mechanics::MechanicalState none;
-  heat::ThermalState old = phase.initial_state(start), next = old;
-  std::vector<double> before = phase.solid_fraction(old), after = before;
+  heat::ThermalState old = phase.states().initial(start), next = old;
+  std::vector<double> before = phase.states().solid_fraction(old), after = before;
   criteria::CriterionRecord record = freezing.initial({0, old, none, before});
   const auto n = static_cast<int>(std::lround(end / dt));
   for (int i = 1; i <= n; ++i) {
     phase.solve(old, next, i * dt, dt);
-    after = phase.solid_fraction(next);
+    after = phase.states().solid_fraction(next);
     freezing.step({(i - 1) * dt, old, none, before}, {i * dt, next, none, after}, record);
     std::swap(old, next);
     before = after;
-    if (phase.mean_solid_fraction(old) == 1.0) break;
+    if (phase.states().mean_solid_fraction(old) == 1.0) break;
   }
   Fields fields;
   std::vector<std::span<double>> values;

@@ -110,7 +110,7 @@ struct March {
   }
   State start() const {
     State state;
-    state.heat = heat.initial_state(std::vector<double>{p.start});
+    state.heat = heat.states().initial(std::vector<double>{p.start});
     return state;
   }
   double distance(const heat::ThermalState& a, const heat::ThermalState& b) const {
@@ -124,7 +124,8 @@ struct March {
     heat::ThermalState now = states.front();
     for (int i = 1; i <= n; ++i) {
       const heat::HeatBalance balance =
-          heat.solve(now, now, {.time = p.end * i / n, .dt = p.end / n, .stepping = heat.stepping()}).balance;
+          heat.solve(now, now, {.time = p.end * i / n, .dt = p.end / n, .stepping = heat::stepping(heat)})
+              .balance;
       if (audit != nullptr) {
         audit->first += std::abs(balance.defect());
         audit->second += balance.exchanged;
@@ -140,7 +141,7 @@ struct March {
                                     coupling::ErrorEstimate(norm, &all));
     Diary diary;
     simulation.add(diary);
-    const auto fraction = [&](const State& s) { return heat.mean_solid_fraction(s.heat); };
+    const auto fraction = [&](const State& s) { return heat.states().mean_solid_fraction(s.heat); };
     EXPECT_EQ(from != nullptr ? simulation.run(from->second, fraction, from->first)
                               : simulation.run(start(), fraction),
               coupling::Outcome::finished);

@@ -91,22 +91,22 @@ Result cool(const Coupled& c, bool by_latent_heat) {
   Result result;
   double drawn = 0;
   for (int step = 1; step <= k_steps; ++step) {
-    const double before = assembly.heat().mean_solid_fraction(state.heat);
+    const double before = assembly.heat().states().mean_solid_fraction(state.heat);
     coupling::State trial;
     const coupling::StepEffort effort = assembly.advance(state, trial, step, 1.0);
     state = std::move(trial);
     drawn += effort.energy.heat_exchanged;
-    const double after = assembly.heat().mean_solid_fraction(state.heat);
+    const double after = assembly.heat().states().mean_solid_fraction(state.heat);
     const double by_heat = -k_power * (step - 1) / k_latent;
     const bool monolithic = c.iteration || c.mapping == Mapping::simultaneous;
     const double frozen = !by_latent_heat ? by_heat : c.double_pass || monolithic ? after : before;
     result.size = std::max(result.size, difference(c, state, k_volume_change * frozen));
     result.defect += std::abs(effort.energy.defect());
-    const std::vector<double> fractions = assembly.heat().solid_fraction(state.heat);
+    const std::vector<double> fractions = assembly.heat().states().solid_fraction(state.heat);
     for (const double f : fractions) EXPECT_NEAR(f, after, 1e-11) << step;
   }
   result.defect /= drawn;
-  result.frozen = assembly.heat().mean_solid_fraction(state.heat);
+  result.frozen = assembly.heat().states().mean_solid_fraction(state.heat);
   return result;
 }
 

@@ -26,11 +26,11 @@ Result freeze(const material::Material& m, double start, double dt, heat::HeatIn
   options.integration = rule;
   options.tolerance = 1e-12;
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {m}, conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{start});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{start});
   Result result;
   double latent = 0, stored = 0, in = 0;
   int steps = 0;
-  while (phase.mean_solid_fraction(state) < 1.0 && steps < 5000) {
+  while (phase.states().mean_solid_fraction(state) < 1.0 && steps < 5000) {
     ++steps;
     const heat::ThermalReport report = phase.solve(state, state, steps * dt, dt);
     latent -= report.balance.latent;

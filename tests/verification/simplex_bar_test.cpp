@@ -88,7 +88,7 @@ History cool(const Element& element, mechanics::Mapping mapping) {
     const test::ElementFields fields = test::element_fields(assembly.mechanics().mesh(), state.mechanics)[0];
     for (const auto& stress : fields.stress) axial.push_back(stress[0]);
     history.mean_stress.push_back(cells.mean(axial));
-    history.solid.push_back(assembly.heat().mean_solid_fraction(state.heat));
+    history.solid.push_back(assembly.heat().states().mean_solid_fraction(state.heat));
   }
   return history;
 }

@@ -115,7 +115,7 @@ Pour pour(const Element& element, mechanics::Mapping mapping, const Table& visco
                static_cast<double>(surface.size());
   result.sinking = std::abs(sinking / (cells.mean(volume_change) * k_column_height) - 1);
   for (const double u : distortion) result.most_distortion = std::max(result.most_distortion, std::abs(u));
-  result.solid = assembly.heat().mean_solid_fraction(state.heat);
+  result.solid = assembly.heat().states().mean_solid_fraction(state.heat);
   result.defect = std::abs(defect) / moved;
   return result;
 }

@@ -126,7 +126,7 @@ inline SlabResult freeze(const Strip& strip, const SlabRun& run) {
   const auto scheme = run.scheme(phases);
 
   coupling::State state;
-  state.heat = heat.initial_state(std::vector<double>{start});
+  state.heat = heat.states().initial(std::vector<double>{start});
   state.mechanics = mechanics.initial_state();
   scheme->synchronise(state);
   SlabResult result{};
@@ -175,7 +175,7 @@ inline SlabResult freeze(const Strip& strip, const SlabRun& run) {
     if (i == std::lround(5 / run.dt)) result.rms[0] = compare(5);
   }
   result.rms[1] = compare(21);
-  result.front_error = k_length * heat.mean_solid_fraction(state.heat, 0) - slab.front(21);
+  result.front_error = k_length * heat.states().mean_solid_fraction(state.heat, 0) - slab.front(21);
   printf("%s, step %g s: rms %.3f MPa at 5 s, %.3f MPa at 21 s, front %.3f mm off\n",
          std::string(mesh::name(block.shape)).c_str(), run.dt, 1e-6 * result.rms[0], 1e-6 * result.rms[1],
          1e3 * result.front_error);

@@ -46,14 +46,15 @@ Result run(const Stefan& exact, mesh::Shape shape, int n, int steps, heat::HeatI
   heat::ThermalPhase phase(mesh,
                            verification::is_3d(shape) ? AnalysisKind::solid : AnalysisKind::plane_strain,
                            {material_of(exact)}, conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{exact.start});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{exact.start});
   std::ofstream out;
   if (!file.empty()) out = verification::csv(file, "time[s],frozen[mm],exact[mm]");
   Result result;
   const double dt = k_time / steps;
   for (int i = 1; i <= steps; ++i) {
     phase.solve(state, state, i * dt, dt);
-    const double frozen = k_length * phase.mean_solid_fraction(state, 0), expected = exact.frozen(i * dt);
+    const double frozen = k_length * phase.states().mean_solid_fraction(state, 0),
+                 expected = exact.frozen(i * dt);
     if (!file.empty()) out << i * dt << ',' << 1e3 * frozen << ',' << 1e3 * expected << '\n';
     result.front_error = std::abs(frozen / expected - 1);
     if (10 * i >= steps) result.worst_front_error = std::max(result.worst_front_error, result.front_error);

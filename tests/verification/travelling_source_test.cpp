@@ -94,7 +94,7 @@ heat::ThermalState run(const Plate& plate, const mesh::Mesh& mesh, const Moving&
   options.stepping = heat::ThermalStepping::sdirk2;
   heat::ThermalPhase phase(mesh, solid ? AnalysisKind::solid : AnalysisKind::plane_strain, {metal},
                            conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{300.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{300.0});
   double brought = 0;
   for (int i = 1; i <= steps; ++i) {
     const double dt = time / steps;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "contact/heat/heat_measures.hpp"
 #include "numbers/index_casts.hpp"
 #include "system/processes.hpp"
 
@@ -32,14 +33,17 @@ ContactHeat::ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, con
       spec_(spec),
       point_law_(law),
       law_(*spec.heat),
-      term_(geometry.mesh(), partners, geometry.graph(), law_, is_nodal(spec, surfaces)) {
-  term_.set_curvature(slave_curvatures(geometry, kind, surfaces.slave),
-                      master_curvatures(geometry.mesh(), kind, surfaces));
-}
+      points_({.dimension = geometry.mesh().dimension,
+               .partners = partners,
+               .law = law_,
+               .nodal = is_nodal(spec, surfaces),
+               .curvature = slave_curvatures(geometry, kind, surfaces.slave),
+               .master_curvature = master_curvatures(geometry.mesh(), kind, surfaces)}),
+      term_(geometry.mesh(), geometry.graph(), points_) {}
 
 void ContactHeat::clear(std::size_t n_points) {
-  points_.clear();
-  points_.reserve(n_points);
+  taken_.clear();
+  taken_.reserve(n_points);
   before_.clear();
   before_.reserve(n_points);
 }
@@ -47,16 +51,16 @@ void ContactHeat::clear(std::size_t n_points) {
 void ContactHeat::add(const ContactStep& step, const ContactPointState& from, const ContactPointState& now,
                       const PointForces& forces) {
   before_.push_back(now.temperature);
-  points_.push_back(point(step, from, now, forces));
+  taken_.push_back(point(step, from, now, forces));
   if (predicted_.empty()) return;
-  const std::array<double, 2>& counted = predicted_[points_.size() - 1];
-  points_.back().step.dissipation -= counted[0];
-  points_.back().step.structural_entropy -= counted[1];
+  const std::array<double, 2>& counted = predicted_[taken_.size() - 1];
+  taken_.back().step.dissipation -= counted[0];
+  taken_.back().step.structural_entropy -= counted[1];
 }
 
 void ContactHeat::place() {
-  term_.place(std::move(points_));
-  points_.clear();
+  points_.place(std::move(taken_));
+  taken_.clear();
 }
 
 void ContactHeat::restore(const ContactStep& step, std::span<const ContactPointState> now, bool held) {
@@ -66,7 +70,7 @@ void ContactHeat::restore(const ContactStep& step, std::span<const ContactPointS
     points.push_back(point(step, held ? now[p] : step.from[p], now[p], {}));
     if (held) points.back().has_temperature = now[p].temperature > 0;  // it may store what the bodies give
   }
-  term_.place(std::move(points));
+  points_.place(std::move(points));
 }
 
 HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& from,
@@ -96,30 +100,30 @@ HeatPoint ContactHeat::point(const ContactStep& step, const ContactPointState& f
 
 void ContactHeat::predict() {
   if (!has_temperature()) return;
-  std::vector<HeatPoint> points = term_.points();
+  std::vector<HeatPoint> points = points_.list();
   predicted_.clear();
   for (HeatPoint& point : points) {
     predicted_.push_back({point.step.dissipation, point.step.structural_entropy});
     point.step.dissipation *= 2;
     point.step.structural_entropy *= 2;
   }
-  term_.place(std::move(points));
+  points_.place(std::move(points));
 }
 
 void ContactHeat::show_whole_step() {
-  std::vector<HeatPoint> points = term_.points();
+  std::vector<HeatPoint> points = points_.list();
   for (std::size_t p = 0; p < points.size(); ++p) {
     points[p].step.time_step *= 2;
     points[p].step.dissipation += 2 * predicted_[p][0];
     points[p].step.structural_entropy += 2 * predicted_[p][1];
   }
-  term_.place(std::move(points));
+  points_.place(std::move(points));
   predicted_.clear();
 }
 
 void ContactHeat::reset() {
   predicted_.clear();
-  term_.end_phase();
+  points_.stages().end();
 }
 
 namespace {
@@ -145,13 +149,13 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
   // audit, before and after the slip of the step is taken over.
   InterfaceSums sums;
   if (!has_temperature()) return sums;
-  const std::vector<double> found = term_.interface_temperatures(temperature);
-  const InterfaceHeat heat = term_.interface_heat(temperature);
+  const std::vector<double> found = interface_temperatures(points_, temperature);
+  const InterfaceHeat heat = interface_heat(points_, temperature);
   sums.hardening = hardening_of_step(geometry_, step, now);
   // The slip of the step becomes that of the state, and the heat of a predicted step is shown as a whole.
   take_slip(temperature, step, now);
   if (term_.stores() && !predicted_.empty()) show_whole_step();
-  term_.end_phase();
+  points_.stages().end();
   sums.dissipated = heat.dissipated;
   sums.stored = heat.stored;
   const double capacity = spec_.interface_heat_capacity;
@@ -194,7 +198,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
 
 void ContactHeat::take_slip(std::span<const double> temperature, const ContactStep& step,
                             std::vector<ContactPointState>& now) {
-  const std::vector<std::optional<FrictionResponse>> found = term_.keep_slip(temperature);
+  const std::vector<std::optional<FrictionResponse>> found = points_.keep_slip(temperature);
   // Slip that the thermal phase has found again replaces that of the mechanical one; the traction keeps its
   // direction.
   for (std::size_t p = 0; p < found.size(); ++p) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/forces/step.hpp"
+#include "contact/heat/heat_points.hpp"
 #include "contact/heat/heat_term.hpp"
 #include "contact/points/geometry.hpp"
 #include "contact/points/partners.hpp"
@@ -36,9 +37,10 @@ class ContactHeat : Pinned {
   ContactHeat(const ContactGeometry& geometry, AnalysisKind kind, const ContactParameters& spec,
               const PairSurfaces& surfaces, const PointLaw& law, const PartnerList& partners);
 
-  const HeatTransferLaw& law() const { return law_; }
+  /// The points with what passes at them, and the term of the thermal phase that they make.
+  HeatPoints& points() { return points_; }
+  const HeatPoints& points() const { return points_; }
   HeatTerm& term() { return term_; }
-  const HeatTerm& term() const { return term_; }
   /// Whether the interface has a temperature Θ_c of its own: it rubs or stores heat.
   bool has_temperature() const { return point_law_.friction || spec_.interface_heat_capacity > 0; }
 
@@ -74,9 +76,10 @@ class ContactHeat : Pinned {
   const ContactParameters& spec_;
   const PointLaw& point_law_;
   HeatTransferLaw law_;
+  HeatPoints points_;
   HeatTerm term_;
-  std::vector<HeatPoint> points_;  ///< of the configuration that is being taken over
-  std::vector<double> before_;     ///< Θ_c that the mechanical phase left, [point]
+  std::vector<HeatPoint> taken_;  ///< of the configuration that is being taken over
+  std::vector<double> before_;    ///< Θ_c that the mechanical phase left, [point]
   /// D_c,mech [J/m²] and entropy [J/(m² K)] that predict() has counted in advance, [point]; or empty.
   std::vector<std::array<double, 2>> predicted_;
 };

@@ -1,16 +1,15 @@
-/// Consecutive points of the heat term that share their nodes, and the sum of their matrices; an internal
-/// header of HeatTerm.
+/// Consecutive points of the heat term that share their nodes, and the sum of their matrices.
 #pragma once
 
 #include <algorithm>
 #include <span>
 #include <vector>
 
-#include "contact/heat/heat_term.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 
-struct HeatTerm::Run {
+struct HeatRun {
   Index first = -1;
   std::vector<Index> nodes;
   std::vector<double> values;

@@ -209,7 +209,9 @@ std::optional<double> SlipBalance::solve(double theta) {
     high *= 2;
     value = left_at(high);
   }
-  if (value < 0) return std::nullopt;
+  if (value < 0) {
+    return std::nullopt;
+  }
   double step = high, older_step = high;
   value = left_at(theta);
   for (int i = 0; i < k_max_iterations; ++i) {

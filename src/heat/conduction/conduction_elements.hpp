@@ -15,10 +15,11 @@
 #include "linear/block_matrix.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "system/pinned.hpp"
 
 namespace solidus::heat {
 
-class ConductionElements {
+class ConductionElements : Pinned {
  public:
   /// @param closed         quads and hexes are integrated at their nodes
   /// @param correct_edges  whether conduction next to re-entrant edges is corrected (edge_conduction.hpp)
@@ -26,8 +27,6 @@ class ConductionElements {
   ///                       the elements, 183 bytes a node of tetrahedra, is not kept by add_unit()
   ConductionElements(const mesh::Mesh& mesh, AnalysisKind kind, bool closed, bool correct_edges,
                      bool pattern_stays, const std::vector<material::Material>& materials);
-  ConductionElements(const ConductionElements&) = delete;
-  ConductionElements& operator=(const ConductionElements&) = delete;
 
   /// Conduction of a body that comes back is computed again when it is asked for.
   void set_active(const linear::ActiveSet& active);

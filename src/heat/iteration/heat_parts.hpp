@@ -14,6 +14,7 @@
 #include "heat/loads/prescribed_nodes.hpp"
 #include "heat/loads/surface_heats.hpp"
 #include "heat/radiation/enclosed_surfaces.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::heat {
 
@@ -28,7 +29,9 @@ struct HeatParts {
         surfaces(mesh, kind, elements.active(), closed, conditions),
         sources(mesh, kind, elements.active(), at_nodes, conditions),
         prescribed(mesh, elements.active(), conditions.temperatures),
-        contributions(std::move(terms), mesh.n_owned_nodes) {
+        contributions(std::move(terms), mesh.n_owned_nodes),
+        supplied(mesh.x.size()),
+        n_owned(as_size(mesh.n_owned_nodes)) {
     enclosed.set(mesh, kind, elements.active(), closed, conditions);
     channels.set(mesh, kind, elements.active(), closed, conditions);
   }
@@ -44,6 +47,9 @@ struct HeatParts {
   /// ∂r/∂v less what the matrix has, of the last HeatSystem::assemble_symmetric(); not what the limits of
   /// conduction hold back.
   UnsymmetricPart unsymmetric;
+  /// By surfaces, channels and sources at the last HeatSystem::residual(), sign of r, [local node].
+  std::vector<double> supplied;
+  std::size_t n_owned;    ///< nodes
   bool exchanges = true;  ///< off: nothing flows, only the contributions that store are terms
 };
 

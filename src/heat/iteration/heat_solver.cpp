@@ -91,7 +91,7 @@ void HeatSolver::reset() {
 double HeatSolver::seconds() const {
   double total = 0;
   for (const auto* solver : {quick_.get(), strong_.get()})
-    if (solver) total += solver->seconds_setup() + solver->seconds_solve();
+    if (solver) total += solver->seconds().sum();
   return total;
 }
 

@@ -38,7 +38,6 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   matrix_ = std::make_unique<linear::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(parts_.prescribed.fixed());
   bind();
-  supplied_.resize(mesh.x.size());
 }
 
 linear::NodeGraph HeatSystem::graph() const {
@@ -53,7 +52,7 @@ linear::NodeGraph HeatSystem::graph() const {
 
 void HeatSystem::bind() {
   parts_.conduction.bind(*matrix_);
-  parts_.conduction.set_others_diagonal(parts_.contributions.empty() && parts_.surfaces.diagonal());
+  parts_.conduction.set_others_diagonal(parts_.contributions.empty() && diagonal(parts_.surfaces));
   parts_.elements.bind(*matrix_);
   parts_.surfaces.bind(*matrix_);
   for (linear::Contribution* contribution : parts_.contributions.each()) contribution->bind(*matrix_);
@@ -82,7 +81,7 @@ bool HeatSystem::set_conditions(const ThermalConditions& conditions) {
     bind();
   } else {
     parts_.surfaces.bind(*matrix_);
-    parts_.conduction.set_others_diagonal(parts_.contributions.empty() && parts_.surfaces.diagonal());
+    parts_.conduction.set_others_diagonal(parts_.contributions.empty() && diagonal(parts_.surfaces));
   }
   return others;
 }
@@ -93,7 +92,7 @@ void HeatSystem::set_window(const LoadWindow& window) {
   parts_.sources.set_window(window);
   // A function of position may fail on one process alone.
   const auto prescribe = [&] { parts_.prescribed.set_time(window.time); };
-  if (parts_.surfaces.placed() || parts_.sources.placed() || parts_.prescribed.placed())
+  if (placed(parts_.surfaces) || parts_.sources.placed() || parts_.prescribed.placed())
     run_collectively(prescribe);
   else
     prescribe();
@@ -103,16 +102,16 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   // The residual is the sum of flows out of the nodes: conduction, surfaces and sources, less what limits
   // hold back. Contributions add theirs.
   double moved = 0;
-  std::fill(supplied_.begin(), supplied_.end(), 0.0);
+  std::fill(parts_.supplied.begin(), parts_.supplied.end(), 0.0);
   parts_.surfaces.clear_powers();
   parts_.channels.clear_powers();
   parts_.sources.clear_powers();
   if (parts_.exchanges) {
     const std::span<double> flow = parts_.conduction.flow(temperature);
-    parts_.surfaces.add_residual(temperature, supplied_, moved);
-    parts_.channels.add_residual(temperature, supplied_, moved);
-    parts_.sources.add_residual(supplied_, moved);
-    for (std::size_t i = 0; i < flow.size(); ++i) flow[i] += supplied_[i];
+    parts_.surfaces.add_residual(temperature, parts_.supplied, moved);
+    parts_.channels.add_residual(temperature, parts_.supplied, moved);
+    parts_.sources.add_residual(parts_.supplied, moved);
+    for (std::size_t i = 0; i < flow.size(); ++i) flow[i] += parts_.supplied[i];
     std::copy_n(flow.begin(), r.size(), r.begin());
     if (const ConductionLimiter* const limiter = parts_.conduction.limiter())
       limiter->add_heat(temperature, r);
@@ -121,54 +120,6 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   }
   parts_.contributions.add_residual(temperature, parts_.exchanges, r, moved);
   return moved;
-}
-
-void HeatSystem::begin_exchange(std::span<const double> temperature) {
-  if (parts_.enclosed.any()) parts_.enclosed.begin(parts_.surfaces, temperature);
-  if (parts_.channels.any()) parts_.channels.begin(temperature, parts_.elements.potentials());
-}
-
-bool HeatSystem::follow_exchange(std::span<const double> temperature, double tolerance,
-                                 double tolerance_of_fluid, std::span<double> change) {
-  std::fill(change.begin(), change.end(), 0.0);
-  bool settled = true;
-  if (parts_.enclosed.any()) settled = follow_radiation(temperature, tolerance, change);
-  if (parts_.channels.any()) settled = follow_channels(temperature, tolerance_of_fluid, change) && settled;
-  return settled;
-}
-
-bool HeatSystem::follow_channels(std::span<const double> temperature, double tolerance,
-                                 std::span<double> change) {
-  std::vector<double> before(mesh_.x.size(), 0.0), after(before);
-  double moved = 0;
-  parts_.channels.add_residual(temperature, before, moved);
-  const bool settled = parts_.channels.follow(temperature, parts_.elements.potentials(), tolerance);
-  parts_.channels.add_residual(temperature, after, moved);
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i] - after[i];
-  for (std::size_t i = 0; i < supplied_.size(); ++i) supplied_[i] += after[i] - before[i];
-  return settled;
-}
-
-bool HeatSystem::follow_radiation(std::span<const double> temperature, double tolerance,
-                                  std::span<double> change) {
-  // Heat of the surfaces that see each other before and after, by the same sums as in a residual, which
-  // counts what leaves the nodes.
-  std::vector<double> before(mesh_.x.size(), 0.0), after(before);
-  const std::vector<std::size_t>& numbers = parts_.enclosed.numbers();
-  for (const std::size_t s : numbers)
-    parts_.surfaces.add_power(s, -parts_.surfaces.add_residual_of(s, temperature, before));
-  const bool settled = parts_.enclosed.follow(parts_.surfaces, temperature, tolerance);
-  for (const std::size_t s : numbers)
-    parts_.surfaces.add_power(s, parts_.surfaces.add_residual_of(s, temperature, after));
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i] - after[i];
-  for (std::size_t i = 0; i < supplied_.size(); ++i) supplied_[i] += after[i] - before[i];
-  return settled;
-}
-
-double HeatSystem::entropy_power(std::span<const double> temperature) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < as_size(mesh_.n_owned_nodes); ++i) sum -= supplied_[i] / temperature[i];
-  return sum;
 }
 
 void HeatSystem::assemble(std::span<const double> temperature) {
@@ -230,11 +181,6 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
   parts_.conduction.add(temperature, slopes, shared, parts_.unsymmetric);
   if (const ConductionLimiter* const limiter = parts_.conduction.limiter())
     limiter->add_symmetric_tangent(*matrix_);
-}
-
-std::size_t HeatSystem::bytes() const {
-  return matrix_->bytes() + parts_.elements.bytes() + parts_.conduction.bytes() +
-         parts_.contributions.bytes() + parts_.enclosed.bytes() + parts_.channels.bytes();
 }
 
 }  // namespace solidus::heat

@@ -48,19 +48,6 @@ class HeatSystem {
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);
-  /// What depends on temperatures elsewhere is that of these: radiation between surfaces, the fluid of
-  /// channels. Collective.
-  void begin_exchange(std::span<const double> temperature);
-  /// Ends an iteration of it (EnclosedSurfaces::follow, Channels::follow) after a residual() at these
-  /// temperatures: powers and entropy of that residual are with the new exchange then.
-  /// @param tolerance, tolerance_of_fluid  of radiation and of channels [K]
-  /// @param change  set to the heat that this brings the nodes beyond what they had, [owned node] [W]
-  /// Returns whether all of it has settled. Collective.
-  bool follow_exchange(std::span<const double> temperature, double tolerance, double tolerance_of_fluid,
-                       std::span<double> change);
-  /// Entropy that surfaces and sources brought with their heat at the last residual(), at the temperatures of
-  /// the bodies there; this process's share [W/K].
-  double entropy_power(std::span<const double> temperature) const;
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);
   /// Fills the matrix with ∂r/∂v in the unknown of nodal_potential.hpp. It is symmetric if the contributions
@@ -80,13 +67,10 @@ class HeatSystem {
   linear::BlockMatrix& matrix() { return *matrix_; }
   /// Gives the matrix another pattern if a contribution asks for it; returns whether it did. Collective.
   bool follow_graph();
-  std::size_t bytes() const;
 
  private:
   linear::NodeGraph graph() const;
   void bind();
-  bool follow_radiation(std::span<const double> temperature, double tolerance, std::span<double> change);
-  bool follow_channels(std::span<const double> temperature, double tolerance, std::span<double> change);
   void scale_by_slopes(std::span<const double> slopes);
 
   const mesh::Mesh& mesh_;
@@ -96,7 +80,6 @@ class HeatSystem {
   HeatParts parts_;
   HeatLimits limits_;
   std::unique_ptr<linear::BlockMatrix> matrix_;
-  std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
 };
 
 }  // namespace solidus::heat

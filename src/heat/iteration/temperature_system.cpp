@@ -26,8 +26,7 @@ class SlopeSolver final : public linear::TangentSolver {
   }
   void forget() override { solver_.forget(); }
   void reset() override { solver_.reset(); }
-  double seconds_setup() const override { return solver_.seconds_setup(); }
-  double seconds_solve() const override { return solver_.seconds_solve(); }
+  linear::SolverSeconds seconds() const override { return solver_.seconds(); }
 
  private:
   linear::LinearReport divided(linear::LinearReport report, std::span<double> x) const {

@@ -127,21 +127,42 @@ double TruncatedNewton::forcing_term(linear::Forcing& forcing) const {
   return sums_.unbalanced <= k_nearly * sums_.moved ? std::min(usual, std::max(goal, k_strictest)) : usual;
 }
 
-linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
-                                            std::span<double> temperature, std::span<double> heat,
-                                            const ConductionBounds& bounds, int newton_steps) {
-  // The step's data are kept for its duration, so that its parts need no arguments of their own.
-  of_step_.old_heat = old_heat;
-  of_step_.heat = heat;
-  of_step_.temperature = temperature;
-  of_step_.dt = dt;
-  of_step_.rate = 1.0 / dt;
+/// The iteration of a step begins, whose data are kept for its duration, so that its parts need no arguments
+/// of their own.
+void TruncatedNewton::begin() {
   sums_.conductance = 0;
   progress_.revisions = progress_.idle = 0;
   progress_.linear = true;
   progress_.looked_up = false;
-  // Whether the front has passed nodes in depth says if chords are worth trying.
   allocate();
+}
+
+/// A linear correction and the search along it.
+/// @param by_chords  whether it is one by chords; told of the one that was taken at last
+/// @param may_use_chords  whether another one may be
+linear::LinearReport TruncatedNewton::step(double to, bool& by_chords, bool may_use_chords,
+                                           linear::NewtonReport& report) {
+  linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
+  report.linear_iterations += linear.iterations;
+  solver_.release();  // sweeps have copies of their own
+  // A step that the search cuts short has met kinks of the curves: another correction is tried,
+  // by chords or away from the kinks.
+  if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
+    by_chords = may_use_chords;
+    linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);
+    solver_.release();
+    report.linear_iterations += linear.iterations;
+    if (linear.converged) search(0);
+  }
+  return linear;
+}
+
+linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
+                                            std::span<double> temperature, std::span<double> heat,
+                                            const ConductionBounds& bounds, int newton_steps) {
+  of_step_ = {.dt = dt, .rate = 1.0 / dt, .old_heat = old_heat, .heat = heat, .temperature = temperature};
+  begin();
+  // Whether the front has passed nodes in depth says if chords are worth trying.
   PlateauWatch watch(mesh_, storage_, system_.matrix(), ghosts_);
   watch.passed_in_depth(of_step_.heat, of_step_.temperature);
   bool by_chords = false;
@@ -200,18 +221,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
         storage_.has_plateaus() && !(by_chords && sums_.unbalanced > k_chord_worth * norm_before);
     norm_before = sums_.unbalanced;
     by_chords = may_use_chords && in_depth;
-    linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
-    report.linear_iterations += linear.iterations;
-    solver_.release();  // sweeps have copies of their own
-    // A step that the search cuts short has met kinks of the curves: another correction is tried,
-    // by chords or away from the kinks.
-    if (linear.converged && !search(by_chords ? 0 : may_use_chords ? k_short_step : k_stuck_step)) {
-      by_chords = may_use_chords;
-      linear = by_chords ? correct_by_chords(to) : correct_beside_kinks(to);
-      solver_.release();
-      report.linear_iterations += linear.iterations;
-      if (linear.converged) search(0);
-    }
+    const linear::LinearReport linear = step(to, by_chords, may_use_chords, report);
     if (!linear.converged) {
       report.reason = "linear solver: " + linear.reason;
       break;

@@ -97,6 +97,8 @@ class TruncatedNewton {
     return sums_.unbalanced <= options_.tolerance * sums_.moved || sums_.unbalanced <= sums_.round_off;
   }
   double forcing_term(linear::Forcing& forcing) const;
+  void begin();
+  linear::LinearReport step(double to, bool& by_chords, bool may_use_chords, linear::NewtonReport& report);
   void assemble();
   void relax_nodes(bool all);
   double look_up(Index node);

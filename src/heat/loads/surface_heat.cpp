@@ -61,7 +61,7 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
           positive[as_size(node)] += area / squares * integral(g, face, {a, a});
         }
       }
-      if (order == 2 && mesh.dimension == 3 && law_.exchanges()) add_corners(faces, g);
+      if (order == 2 && mesh.dimension == 3 && exchanges(law_)) add_corners(faces, g);
       continue;
     }
     // By the open rule the law is taken at Gauss points.
@@ -118,7 +118,7 @@ void SurfaceHeat::place_points(const mesh::Mesh& mesh, AnalysisKind kind, const 
           const Index node = patch.nodes[as_size(face * patch.n_nodes + a)];
           const double n = patch.values[as_size(q * patch.n_nodes + a)];
           for (std::size_t i = 0; i < 3; ++i) point.x[i] += n * mesh.x[as_size(node)][i];
-          if (node < mesh.n_owned_nodes && !law_.exchanges()) shares.push_back({node, number, n * weight});
+          if (node < mesh.n_owned_nodes && !exchanges(law_)) shares.push_back({node, number, n * weight});
         }
       }
     if (!closed) first_cell += patch.n_faces;
@@ -153,16 +153,16 @@ void SurfaceHeat::set_window(const LoadWindow& window) {
   if (!load_) law_.set_window(window);
   // A surface that has not been irradiated yet sees the opening.
   if (law_.enclosed() && !law_.has_values()) {
-    const double c = law_.factor();
-    law_.set_values(std::vector<LoadValues>(point_nodes_.size(), {c, c * law_.environment()}));
+    const double c = law_.enclosed()->factor;
+    law_.set_values(std::vector<LoadValues>(point_nodes_.size(), {c, c * law_.enclosed()->environment}));
   }
   if (!load_) return;
   load_->set(window);
-  if (law_.exchanges()) law_.set_values(load_->means());
+  if (exchanges(law_)) law_.set_values(load_->means());
 }
 
 void SurfaceHeat::irradiate(std::span<const double> fourth) {
-  const double coefficient = law_.factor();
+  const double coefficient = law_.enclosed()->factor;
   std::vector<LoadValues> means;
   for (const Index node : point_nodes_) means.push_back({coefficient, coefficient * fourth[as_size(node)]});
   law_.set_values(means);

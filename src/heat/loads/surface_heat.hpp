@@ -26,6 +26,16 @@ struct SurfaceFlux {
   double slope = 0;  ///< dq/dΘ [W/(m² K)]
 };
 
+/// What a surface that sees others tells of itself, at the time set.
+struct EnclosedSide {
+  double factor = 1;       ///< ε, or what a table of it is multiplied by
+  double environment = 0;  ///< Θ_∞⁴ of the opening [K⁴]
+  std::optional<Table> of_temperature;
+  double emissivity(double temperature) const {
+    return of_temperature ? factor * of_temperature->value(temperature) : factor;
+  }
+};
+
 /// The law of one surface as a mean over a part of a step, or at one time, at points of the surface.
 ///
 /// With Θ the temperature of the surface at the end of that part, the mean of h(t) (Θ_a(t) − Θ) is
@@ -38,21 +48,12 @@ class SurfaceLaw {
   explicit SurfaceLaw(const Radiation& radiation);
   /// Whether it differs from point to point.
   bool placed() const { return enclosed_ || !law_.uniform(); }
-  /// Whether what falls on the surface is told point by point (SurfaceHeat::irradiate).
-  bool enclosed() const { return enclosed_; }
-  /// ε at the time set and Θ_∞⁴ of the opening [K⁴], where it is enclosed.
-  double emissivity(double temperature) const {
-    return of_temperature_ ? enclosed_at_.coefficient * of_temperature_->value(temperature)
-                           : enclosed_at_.coefficient;
-  }
-  double environment() const { return enclosed_at_.driver; }
-  /// ε, or what a table of it is multiplied by, where it is enclosed.
-  double factor() const { return enclosed_at_.coefficient; }
+  /// Of a surface on which what falls is told point by point (SurfaceHeat::irradiate); null of others.
+  const EnclosedSide* enclosed() const { return enclosed_ ? &*enclosed_ : nullptr; }
   bool has_values() const { return !now_.empty(); }
   /// The points that at() will be asked for; needed where it is placed.
   void set_points(std::vector<Position> points) { points_ = std::move(points); }
   /// Throws InputError where a function of position has no value that is allowed. Not collective.
-  void set_time(double time) { set_window(LoadWindow::at(time)); }
   void set_window(const LoadWindow& window);
   /// Gives the means of a law that is placed, one per point, in place of set_window().
   void set_values(std::span<const LoadValues> means);
@@ -61,8 +62,6 @@ class SurfaceLaw {
   /// film coefficient that falls steeply with temperature), the slope is that of the frozen coefficient.
   /// @param point  number in set_points(); without meaning where the law is the same everywhere
   SurfaceFlux at(double temperature, std::size_t point = 0) const;
-  /// Whether heat is exchanged with surroundings, by a film or by radiation.
-  bool exchanges() const { return law_.kind != LoadLaw::Kind::power; }
   /// The least and the greatest Θ_a of a film or of radiation at the time set [K]; none of a flux.
   std::optional<TemperatureRange> ambient() const;
 
@@ -75,13 +74,17 @@ class SurfaceLaw {
   LoadValues mean_over(const LoadWindow& window) const;
   Now now(const LoadValues& mean, double otherwise) const;
 
-  bool enclosed_ = false;
-  Now enclosed_at_;  ///< of an enclosed surface: ε or its factor, Θ_∞⁴
+  std::optional<EnclosedSide> enclosed_;
   LoadLaw law_;
   std::optional<Table> of_temperature_;  ///< the coefficient, where it is a table of the temperature
   std::vector<Position> points_;
   std::vector<Now> now_;  ///< one, or one a point
 };
+
+/// Whether heat is exchanged with surroundings, by a film or by radiation.
+inline bool exchanges(const SurfaceLaw& law) {
+  return law.law().kind != LoadLaw::Kind::power;
+}
 
 /// A flow between two nodes that a limit may hold back (conduction_limiter.hpp).
 struct LimitedFlow {
@@ -159,7 +162,7 @@ class SurfaceHeat {
   };
   /// Numbers the points of the patches and hands them to the load.
   void place_points(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, bool closed);
-  bool is_placed_flux() const { return load_ && !law_.exchanges(); }
+  bool is_placed_flux() const { return load_ && !exchanges(law_); }
   std::string name_;
   SurfaceLaw law_;
   std::unique_ptr<PlacedLoad> load_;  ///< where the law differs from point to point

@@ -25,20 +25,6 @@ void SurfaceHeats::bind(const linear::BlockMatrix& matrix) {
   for (SurfaceHeat& surface : surfaces_) surface.bind(matrix);
 }
 
-bool SurfaceHeats::placed() const {
-  return std::ranges::any_of(surfaces_, [](const SurfaceHeat& s) { return s.law().placed(); });
-}
-
-bool SurfaceHeats::diagonal() const {
-  return std::ranges::all_of(surfaces_, [](const SurfaceHeat& s) { return s.diagonal(); });
-}
-
-double SurfaceHeats::lasting(double from, double to) const {
-  double longest = HUGE_VAL;
-  for (const SurfaceHeat& surface : surfaces_) longest = std::min(longest, surface.lasting(from, to));
-  return longest;
-}
-
 void SurfaceHeats::add_residual(std::span<const double> temperature, std::span<double> out, double& moved) {
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
     powers_[s] = surfaces_[s].add_residual(temperature, out, moved);
@@ -63,6 +49,20 @@ std::vector<NamedPower> SurfaceHeats::powers() const {
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
     all.push_back({surfaces_[s].name(), parallel::global_sum(powers_[s])});
   return all;
+}
+
+bool placed(const SurfaceHeats& surfaces) {
+  return std::ranges::any_of(surfaces.each(), [](const SurfaceHeat& s) { return s.law().placed(); });
+}
+
+bool diagonal(const SurfaceHeats& surfaces) {
+  return std::ranges::all_of(surfaces.each(), [](const SurfaceHeat& s) { return s.diagonal(); });
+}
+
+double lasting(const SurfaceHeats& surfaces, double from, double to) {
+  double longest = HUGE_VAL;
+  for (const SurfaceHeat& surface : surfaces.each()) longest = std::min(longest, surface.lasting(from, to));
+  return longest;
 }
 
 }  // namespace solidus::heat

@@ -23,13 +23,6 @@ class SurfaceHeats {
   std::span<SurfaceHeat> each() { return surfaces_; }
   std::span<const SurfaceHeat> each() const { return surfaces_; }
   void bind(const linear::BlockMatrix& matrix);
-  /// Whether a condition varies with position.
-  bool placed() const;
-  /// Whether the tangents add to the diagonal alone; on this process.
-  bool diagonal() const;
-  /// The longest time after which a load that moves still overlaps with itself; infinite where none moves.
-  /// Collective.
-  double lasting(double from, double to) const;
   /// Adds the heat that leaves the nodes, [local node] [W], and its magnitudes on this process to `moved`;
   /// ghost rows are scrap. powers() are those of this call.
   void add_residual(std::span<const double> temperature, std::span<double> out, double& moved);
@@ -49,5 +42,13 @@ class SurfaceHeats {
   std::vector<SurfaceHeat> surfaces_;
   std::vector<double> powers_;  ///< of this process
 };
+
+/// Whether a condition varies with position.
+bool placed(const SurfaceHeats& surfaces);
+/// Whether the tangents add to the diagonal alone; on this process.
+bool diagonal(const SurfaceHeats& surfaces);
+/// The longest time after which a load that moves still overlaps with itself; infinite where none moves.
+/// Collective.
+double lasting(const SurfaceHeats& surfaces, double from, double to);
 
 }  // namespace solidus::heat

@@ -17,11 +17,12 @@ SurfaceLaw::SurfaceLaw(const Film& film) : law_{LoadLaw::Kind::film, {film.facto
 }
 
 SurfaceLaw::SurfaceLaw(const Radiation& radiation)
-    : enclosed_(radiation.enclosed), law_{LoadLaw::Kind::radiation, {radiation.factor, radiation.ambient}} {
+    : law_{LoadLaw::Kind::radiation, {radiation.factor, radiation.ambient}} {
   if (radiation.emissivity.of_temperature)
     of_temperature_ = radiation.emissivity.table.table();
   else
     law_.functions.insert(law_.functions.begin() + 1, radiation.emissivity.table);
+  if (radiation.enclosed) enclosed_ = EnclosedSide{.of_temperature = of_temperature_};
 }
 
 SurfaceLaw::Now SurfaceLaw::now(const LoadValues& mean, double otherwise) const {
@@ -32,7 +33,7 @@ SurfaceLaw::Now SurfaceLaw::now(const LoadValues& mean, double otherwise) const 
 /// The mean over the window; of an exchange in a step of backward Euler that of LoadWindow::to_end.
 LoadValues SurfaceLaw::mean_over(const LoadWindow& window) const {
   const LoadValues mean = mean_load(window, law_);
-  if (!window.to_end || !exchanges()) return mean;
+  if (!window.to_end || !exchanges(*this)) return mean;
   constexpr double k_inside = 1e-9;  // of the step: a formula may jump at its ends, where steps end
   const LoadWindow::Part& step = window.parts[0];
   const double inside = k_inside * (step.end - step.begin);
@@ -51,7 +52,8 @@ void SurfaceLaw::set_window(const LoadWindow& window) {
   if (enclosed_) {
     const LoadValues mean = mean_over(window);
     const double ambient = law_.ambient(mean, law_.functions.back().value(window.time));
-    enclosed_at_ = {mean[0], ambient * ambient * ambient * ambient};
+    enclosed_->factor = mean[0];
+    enclosed_->environment = ambient * ambient * ambient * ambient;
     for (Now& point : now_) point.coefficient = mean[0];
     return;
   }
@@ -61,7 +63,7 @@ void SurfaceLaw::set_window(const LoadWindow& window) {
     const double at_end = driver.value(window.time);
     Now& everywhere = now_.emplace_back(now(mean_over(window), at_end));
     // Without rounding where it is the same all the time.
-    if (exchanges() && (window.n_parts == 0 || driver.steady())) everywhere.driver = at_end;
+    if (exchanges(*this) && (window.n_parts == 0 || driver.steady())) everywhere.driver = at_end;
     now_.erase(now_.begin(), now_.end() - 1);
     return;
   }
@@ -93,7 +95,7 @@ SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
   // A prescribed flux has no slope; exchange has that of its drive and of a coefficient that
   // depends on temperature.
   const Now& n = now_[placed() ? point : 0];
-  if (!exchanges()) return {n.driver, 0.0};
+  if (!exchanges(*this)) return {n.driver, 0.0};
   const bool varies = of_temperature_.has_value();
   const double c = varies ? n.coefficient * of_temperature_->value(temperature) : n.coefficient;
   const double c_slope = varies ? n.coefficient * of_temperature_->derivative(temperature) : 0.0;
@@ -114,7 +116,7 @@ SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
 }
 
 std::optional<TemperatureRange> SurfaceLaw::ambient() const {
-  if (!exchanges()) return std::nullopt;
+  if (!exchanges(*this)) return std::nullopt;
   TemperatureRange range;
   for (const Now& n : now_) {
     range.lowest = std::min(range.lowest, n.driver);

@@ -103,8 +103,8 @@ void EnclosedSurfaces::set(const mesh::Mesh& mesh, AnalysisKind kind, const line
 std::vector<double> EnclosedSurfaces::following(SurfaceHeats& surfaces, std::span<const double> temperature) {
   std::vector<EnclosureSurface> laws;
   for (const std::size_t s : numbers_) {
-    const SurfaceLaw& law = surfaces.each()[s].law();
-    laws.push_back({[&law](double t) { return law.emissivity(t); }, law.environment()});
+    const EnclosedSide& side = *surfaces.each()[s].law().enclosed();
+    laws.push_back({[&side](double t) { return side.emissivity(t); }, side.environment});
   }
   return enclosure_->irradiation(temperature, laws);
 }

@@ -58,8 +58,7 @@ class SaddleSolver final : public linear::TangentSolver {
   linear::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
   void forget() override;
   void reset() override;
-  double seconds_setup() const override { return seconds_.setup; }
-  double seconds_solve() const override { return seconds_.solve; }
+  linear::SolverSeconds seconds() const override { return {seconds_.setup, seconds_.solve}; }
   std::size_t bytes() const;
 
  private:

@@ -112,7 +112,7 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   // hottest now. Each part needs a field that was followed; without it the part stays empty.
   CastAnswer answer;
   answer.cast = cast;
-  answer.solid_fraction = phases.heat->mean_solid_fraction(state.heat, cast.body);
+  answer.solid_fraction = phases.heat->states().mean_solid_fraction(state.heat, cast.body);
   const std::vector<char> nodes = owned_nodes_of(mesh, cast.body);
   const auto last_melt = [&] {
     const FieldValues frozen(fields, criteria::fields::k_solidified_at.name);
@@ -342,7 +342,7 @@ double solid_fraction(const coupling::Phases& phases, const coupling::State& sta
     const double volume = parallel::global_sum(own);
     if (volume == 0) continue;  // it has left
     whole += volume;
-    solid += volume * phases.heat->mean_solid_fraction(state.heat, cast.body);
+    solid += volume * phases.heat->states().mean_solid_fraction(state.heat, cast.body);
   }
   return whole > 0 ? solid / whole : 1.0;
 }

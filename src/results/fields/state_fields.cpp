@@ -257,7 +257,7 @@ void StateFields::add_nodal_stress() {
 
 void StateFields::add_criteria() {
   if (phases_.criteria == nullptr) return;
-  for (const Quantity* quantity : phases_.criteria->fields()) {
+  for (const Quantity* quantity : criteria::fields_of(*phases_.criteria)) {
     Values* v = &add_values(*quantity);
     by_name_[v->name] = &v->values;
     v->compute = [v, n = value_count(mesh_, v->place, v->components)] {
@@ -268,14 +268,14 @@ void StateFields::add_criteria() {
 
 void StateFields::release_criteria() {
   if (phases_.criteria == nullptr) return;
-  for (const Quantity* quantity : phases_.criteria->fields())
+  for (const Quantity* quantity : criteria::fields_of(*phases_.criteria))
     std::vector<double>().swap(values_of(*quantity));
 }
 
 void StateFields::update_criteria(const coupling::State& state) {
   if (phases_.criteria == nullptr) return;
   std::vector<std::span<double>> values;
-  for (const Quantity* quantity : phases_.criteria->fields()) {
+  for (const Quantity* quantity : criteria::fields_of(*phases_.criteria)) {
     std::vector<double>& of_field = values_of(*quantity);
     of_field.resize(value_count(mesh_, place_of(*quantity), quantity->components(kind_)));
     values.emplace_back(of_field);
@@ -286,7 +286,7 @@ void StateFields::update_criteria(const coupling::State& state) {
 void StateFields::update(const coupling::State& state) {
   // Bodies that are not there in the stage have no values.
   const linear::ActiveSet& there =
-      phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->bodies().active;
+      phases_.heat != nullptr ? heat::active(*phases_.heat) : phases_.mechanics->bodies().active;
   const linear::ActiveSet* active = there.complete() ? nullptr : &there;
   bodies_.set_active(active);
   if (phases_.growth != nullptr)
@@ -294,7 +294,8 @@ void StateFields::update(const coupling::State& state) {
   for (auto& [name, fields] : surfaces_) fields.set_active(active);
   if (phases_.heat != nullptr) {
     std::ranges::copy(state.heat.temperature, values_of(of_heat::k_temperature).begin());
-    std::ranges::copy(phases_.heat->solid_fraction(state.heat), values_of(of_heat::k_solid_fraction).begin());
+    std::ranges::copy(phases_.heat->states().solid_fraction(state.heat),
+                      values_of(of_heat::k_solid_fraction).begin());
   }
   if (phases_.mechanics != nullptr) {
     std::ranges::copy(state.mechanics.displacement, values_of(of_mechanics::k_displacement).begin());

@@ -323,15 +323,15 @@ TEST_P(Adaptive, AStepThatIsDiscardedLeavesNoTraceInARunThatIsDrivenFromOutside)
   std::optional<Outcome> outcome;
   while (!(outcome = simulation.take_step())) {
     const std::size_t known = diary_.steps.size();
-    ASSERT_TRUE(simulation.pending());
-    EXPECT_EQ(simulation.state().time, simulation.record().time);
+    ASSERT_TRUE(simulation.present().pending);
+    EXPECT_EQ(simulation.present().state.time, simulation.present().record.time);
     if (known % 3 == 1) {  // observers have not heard of the step: take it again, as it was
       simulation.discard_step();
-      ASSERT_FALSE(simulation.pending());
-      EXPECT_EQ(simulation.state().time, diary_.states.back().time);
+      ASSERT_FALSE(simulation.present().pending);
+      EXPECT_EQ(simulation.present().state.time, diary_.states.back().time);
       ASSERT_FALSE(simulation.take_step());
-      EXPECT_EQ(simulation.record().rejected, whole.steps[known].rejected + 1);
-      EXPECT_EQ(simulation.record().rejection, "repeated as asked");
+      EXPECT_EQ(simulation.present().record.rejected, whole.steps[known].rejected + 1);
+      EXPECT_EQ(simulation.present().record.rejection, "repeated as asked");
     }
     ASSERT_EQ(diary_.steps.size(), known);
     simulation.commit_step();

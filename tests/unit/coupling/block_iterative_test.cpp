@@ -68,7 +68,7 @@ struct Block {
     phases.heat = heat.get();
     phases.mechanics = mechanics.get();
     phases.structural = structural.get();
-    start.heat = heat->initial_state(std::vector<double>{k_start});
+    start.heat = heat->states().initial(std::vector<double>{k_start});
     start.mechanics = mechanics->initial_state();
   }
 };

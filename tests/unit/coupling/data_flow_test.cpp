@@ -145,10 +145,11 @@ TEST(ThermalDataFlow, APassIsAFunctionOfItsArguments) {
       options.integration = integration;
       heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {freezing(), freezing()}, conditions,
                                options);
-      heat::ThermalState old = phase.initial_state(std::vector<double>{570, 565});
+      heat::ThermalState old = phase.states().initial(std::vector<double>{570, 565});
       const heat::ThermalReport earlier = phase.solve(old, old, {.time = 2, .dt = 2, .stepping = stepping});
       const bool flows = earlier.flows.known();
-      const std::vector<double> flow = flows ? phase.flow_at_end(earlier.flows) : std::vector<double>{};
+      const std::vector<double> flow =
+          flows ? heat::flow_at_end(phase, earlier.flows) : std::vector<double>{};
       heat::ThermalState now;
       const auto solve = [&](heat::ThermalState& trial, double dt, bool adiabatic) {
         return phase.solve(old, trial,
@@ -158,8 +159,8 @@ TEST(ThermalDataFlow, APassIsAFunctionOfItsArguments) {
         Answers a;
         test::add(state, a);
         test::add(report, a);
-        if (flows) a["error"] = phase.time_error(state, report.flows, flow);
-        const heat::TemperatureRange around = phase.ambient_range(5);
+        if (flows) a["error"] = heat::time_error(phase, state, report.flows, flow);
+        const heat::TemperatureRange around = heat::ambient_range(phase, 5);
         a["around"] = {around.lowest, around.highest};
         return a;
       };

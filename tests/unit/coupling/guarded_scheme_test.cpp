@@ -39,7 +39,7 @@ class Guard : public ::testing::Test {
  protected:
   Guard() {
     phases_.heat = &phase_;
-    start_.heat = phase_.initial_state(std::vector<double>{500});
+    start_.heat = phase_.states().initial(std::vector<double>{500});
     start_.heat.temperature.front() = 600;  // the range of what follows is 100 K
   }
   std::unique_ptr<coupling::CouplingScheme> guarded(double true_up_to, double false_change) const {

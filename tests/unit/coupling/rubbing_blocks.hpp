@@ -133,7 +133,7 @@ struct RubbingBlocks {
     phases.mechanics = mechanics.get();
     phases.structural = &*structural;
     phases.contacts = {pair.get()};
-    state.heat = heat->initial_state(std::vector<double>{k_rubbing_start, k_rubbing_start});
+    state.heat = heat->states().initial(std::vector<double>{k_rubbing_start, k_rubbing_start});
     state.mechanics = mechanics->initial_state();
     state.contacts = {pair->parts().history.initial()};
   }

@@ -33,7 +33,7 @@ class Periodic : public ::testing::Test {
   Search search(const std::function<double(double, double)>& map, bool accelerate) {
     const ShotMap shots(phase_, {1}, {.tolerance = 1e-4, .accelerate = accelerate});
     Search s;
-    s.state.heat = phase_.initial_state(std::vector<double>{400.0});
+    s.state.heat = phase_.states().initial(std::vector<double>{400.0});
     s.history.lowest = 300;
     s.history.highest = 850;
     while (s.shots < 500) {
@@ -42,7 +42,7 @@ class Periodic : public ::testing::Test {
         double& t = s.state.heat.temperature[static_cast<std::size_t>(i)];
         t = map(t, mesh_.x[static_cast<std::size_t>(i)][0]);
       }
-      s.state.heat = phase_.initial_state_at_nodes(s.state.heat.temperature);
+      s.state.heat = phase_.states().initial_at_nodes(s.state.heat.temperature);
       ++s.shots;
       if (shots.end(s.state, s.history).periodic) break;
     }
@@ -85,17 +85,17 @@ TEST_F(Periodic, NoNodeIsMovedBeyondTheHighestTemperatureOfTheRun) {
 TEST_F(Periodic, TheHeatOfAMoveIsToldToTheLastDigit) {
   const ShotMap shots(phase_, {1}, {.tolerance = 1e-9});
   State state;
-  state.heat = phase_.initial_state(std::vector<double>{400.0});
+  state.heat = phase_.states().initial(std::vector<double>{400.0});
   ShotHistory history;
   history.lowest = 300;
   history.highest = 850;
   for (int shot = 0; shot < 4; ++shot) {
-    const double before = phase_.heat_content(state.heat);
+    const double before = phase_.states().heat_content(state.heat);
     const double corrected = shots.begin(state, history);
-    EXPECT_NEAR(phase_.heat_content(state.heat) - before, corrected, 1e-12 * before);
+    EXPECT_NEAR(phase_.states().heat_content(state.heat) - before, corrected, 1e-12 * before);
     for (std::size_t i = 0; i < mesh_.x.size(); ++i)
       state.heat.temperature[i] = linear(state.heat.temperature[i], mesh_.x[i][0]);
-    state.heat = phase_.initial_state_at_nodes(state.heat.temperature);
+    state.heat = phase_.states().initial_at_nodes(state.heat.temperature);
     shots.end(state, history);
   }
 }

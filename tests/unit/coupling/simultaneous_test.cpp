@@ -68,7 +68,7 @@ struct Model {
     phases.heat = &*heat;
     phases.mechanics = mechanics.get();
     phases.structural = &*structural;
-    state.heat = heat->initial_state(std::vector<double>{k_start});
+    state.heat = heat->states().initial(std::vector<double>{k_start});
     state.mechanics = mechanics->initial_state();
   }
 };

@@ -200,7 +200,7 @@ Excursion run(const Problem& p, bool bounds, int steps, double tolerance = 0) {
   options.bounds = bounds;
   options.alone = true;
   heat::ThermalPhase phase(p.mesh, p.kind, p.materials, p.conditions, options);
-  heat::ThermalState state = phase.initial_state(p.start);
+  heat::ThermalState state = phase.states().initial(p.start);
   Excursion out;
   double time = 0, dt = p.dt;
   for (int i = 1; i <= steps;) {
@@ -256,7 +256,7 @@ double moved_by_second_pass(const Problem& p, bool keeps) {
   options.tolerance = 1e-11;
   options.alone = true;
   heat::ThermalPhase phase(p.mesh, p.kind, p.materials, p.conditions, options);
-  const heat::ThermalState old = phase.initial_state(p.start);
+  const heat::ThermalState old = phase.states().initial(p.start);
   heat::ThermalState first, second;
   phase.solve(old, first, p.dt, p.dt);
   phase.solve(old, second, {.time = p.dt, .dt = p.dt, .iterate = &first, .keeps_limits = keeps});
@@ -316,10 +316,10 @@ TEST(Bounds, LeaveLinearTemperaturesExact) {
     heat::ThermalPhase phase(mesh, kind_of(shape), {conductor()}, conditions, options);
     std::vector<double> start;
     for (const mesh::Point& x : mesh.x) start.push_back(300 + 200 * x[0]);
-    heat::ThermalState state = phase.initial_state_at_nodes(start);
+    heat::ThermalState state = phase.states().initial_at_nodes(start);
     for (int i = 1; i <= 3; ++i) phase.solve(state, state, 100.0 * i, 100.0);
     heat::ThermalState steady;
-    phase.solve_steady(phase.initial_state(std::vector<double>{350.0}), steady, 0.0);
+    phase.solve_steady(phase.states().initial(std::vector<double>{350.0}), steady, 0.0);
     for (std::size_t i = 0; i < mesh.x.size(); ++i) {
       EXPECT_NEAR(state.temperature[i], start[i], 2e-10) << mesh::name(shape);
       EXPECT_NEAR(steady.temperature[i], start[i], 2e-8) << mesh::name(shape);
@@ -339,7 +339,7 @@ double cosine_error(Shape shape, int cells, bool bounds) {
   const double rate = k_pi * k_pi * 4e-5, dt = 0.1 / rate;
   std::vector<double> start;
   for (const mesh::Point& x : mesh.x) start.push_back(600 + 200 * std::cos(k_pi * x[0]));
-  heat::ThermalState state = phase.initial_state_at_nodes(start);
+  heat::ThermalState state = phase.states().initial_at_nodes(start);
   double factor = 1;
   for (int i = 1; i <= 4; ++i) {
     phase.solve(state, state, i * dt, dt);

@@ -84,7 +84,7 @@ TEST_P(ChannelInASquare, TakesTheHeatOfTheExactField) {
   heat::ThermalPhase phase(mesh, solid ? AnalysisKind::solid : AnalysisKind::plane_strain, {steel()},
                            conditions);
   heat::ThermalState end;
-  const heat::ThermalReport report = phase.solve_steady(phase.initial_state(std::array{400.0}), end, 0);
+  const heat::ThermalReport report = phase.solve_steady(phase.states().initial(std::array{400.0}), end, 0);
   ASSERT_EQ(report.channels.size(), 1U);
   const double length = solid ? thickness : 1.0;
   EXPECT_NEAR(report.channels[0].heat / (q * length), 1, most);
@@ -123,7 +123,7 @@ TEST(Channels, FluidWarmsUpAlongItsWay) {
     conditions.temperatures.push_back({side, side, 400.0});
   heat::ThermalPhase phase(mesh, AnalysisKind::solid, {metal}, conditions);
   heat::ThermalState end;
-  const heat::ThermalReport report = phase.solve_steady(phase.initial_state(std::array{400.0}), end, 0);
+  const heat::ThermalReport report = phase.solve_steady(phase.states().initial(std::array{400.0}), end, 0);
   const double units = 4.36 * 0.6 * k_pi * 0.4 / (0.005 * 4000);
   EXPECT_NEAR(report.channels[0].outlet, 400 - 100 * std::exp(-units), 0.01);
   EXPECT_NEAR(report.channels[0].heat, 0.005 * 4000 * (report.channels[0].outlet - 300), 1e-9);
@@ -137,7 +137,7 @@ TEST(Channels, OutletOfOneFeedsTheNext) {
     heat::ThermalConditions conditions;
     conditions.channels = std::move(channels);
     heat::ThermalPhase phase(mesh, AnalysisKind::solid, {steel()}, conditions);
-    heat::ThermalState state = phase.initial_state(std::array{500.0});
+    heat::ThermalState state = phase.states().initial(std::array{500.0});
     double taken = 0, outlet = 0, defect = 0;
     for (int step = 1; step <= 5; ++step) {
       const heat::ThermalReport report =
@@ -179,7 +179,7 @@ TEST(Channels, InAPlaneOfSymmetryAreHalf) {
     if (share == 1) conditions.temperatures.push_back({"bottom", "z_max", 500.0});
     heat::ThermalPhase phase(mesh, AnalysisKind::solid, {steel()}, conditions);
     heat::ThermalState end;
-    return phase.solve_steady(phase.initial_state(std::array{400.0}), end, 0).channels[0];
+    return phase.solve_steady(phase.states().initial(std::array{400.0}), end, 0).channels[0];
   };
   const heat::ChannelReading whole = taken(0.04, {10, 6, 8}, 1), half = taken(0.02, {10, 6, 4}, 0.5);
   EXPECT_NEAR(half.heat, 0.5 * whole.heat, 1e-3 * whole.heat);
@@ -199,7 +199,7 @@ TEST(Channels, OfRevolutionAreRingsAndStandingWaterTakesNothing) {
   conditions.temperatures = {{"rim", "x_max", 400.0}};
   heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric, {metal}, conditions);
   heat::ThermalState end;
-  const heat::ThermalState start = phase.initial_state(std::array{400.0});
+  const heat::ThermalState start = phase.states().initial(std::array{400.0});
   const double film = 100 * 0.6 / 0.01, area = k_pi * 0.01 * 2 * k_pi * 1.026;
   EXPECT_NEAR(phase.solve_steady(start, end, 0).channels[0].heat / (film * area * 100), 1, 2e-3);
   conditions.channels[0].flow = 0.0;

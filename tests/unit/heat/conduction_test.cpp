@@ -60,7 +60,7 @@ TEST_P(EveryShape, ReproducesALinearTemperatureOnBentElements) {
   options.integration = closed ? heat::HeatIntegration::closed : heat::HeatIntegration::open;
   options.solver = linear::SolverKind::direct;
   heat::ThermalPhase phase(mesh, kind_of(shape), {conductor(Table(100.0))}, conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{350.0});
   const heat::ThermalReport report = phase.solve_steady(state, state, 0.0);
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     // Bent quadratic elements keep straight sides only approximately: their mid-nodes follow the map.
@@ -157,7 +157,7 @@ TEST(ClosedRule, CarriesAnAxialFluxExactlyAlsoOnTheAxis) {
     conditions.temperatures.push_back({"cold", "y_min", Table(300.0)});
     conditions.fluxes.push_back({"hot", "y_max", Table(1e4)});
     heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric, {conductor(Table(100.0))}, conditions);
-    heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
+    heat::ThermalState state = phase.states().initial(std::vector<double>{350.0});
     phase.solve_steady(state, state, 0.0);
     for (std::size_t i = 0; i < mesh.x.size(); ++i)
       EXPECT_NEAR(state.temperature[i], 300 + 100 * mesh.x[i][1], 1e-8) << mesh::name(shape);
@@ -169,7 +169,7 @@ TEST(SteadyState, IsRejectedWhereNothingHoldsTheTemperature) {
   heat::ThermalConditions conditions;
   conditions.fluxes.push_back({"hot", "y_max", Table(1e4)});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {conductor(Table(100.0))}, conditions);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{350.0});
   EXPECT_THROW(phase.solve_steady(state, state, 0.0), StepRejected);
 }
 
@@ -192,7 +192,7 @@ TEST(Conditions, HoldTheLaterOfTwoPrescribedTemperatures) {
   conditions.temperatures.push_back({"all", "block", Table(400.0)});
   conditions.temperatures.push_back({"side", "x_min", Table(300.0)});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(1)}, conditions);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{350.0});
   phase.solve(state, state, 1.0, 1.0);
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
     EXPECT_EQ(state.temperature[i], mesh.x[i][0] == 0 ? 300.0 : 400.0);

@@ -52,7 +52,7 @@ TEST(Contributions, BringTwoBodiesToTheTemperatureAtWhichTheirHeatsAddUp) {
   mould.phase_changes.clear();
   // The melt gives up a quarter of its latent heat at 900 K: 7e8/4 J/m³ warm the mould by 70 K, to 900 K.
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(0), mould}, {}, {}, {&bridge});
-  heat::ThermalState state = phase.initial_state(std::vector<double>{900.0, 830.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{900.0, 830.0});
   double time = 0;
   for (int i = 0; i < 40; ++i) {
     const double dt = std::pow(1.3, i);
@@ -62,9 +62,9 @@ TEST(Contributions, BringTwoBodiesToTheTemperatureAtWhichTheirHeatsAddUp) {
     EXPECT_NEAR(report.balance.stored, 0.0, 1e-8 * report.balance.exchanged + 1e-7);
   }
   for (double t : state.temperature) EXPECT_NEAR(t, 900.0, 1e-6);
-  EXPECT_NEAR(phase.mean_solid_fraction(state, 0), 0.25, 1e-8);
-  EXPECT_NEAR(phase.mean_solid_fraction(state), 0.25, 1e-8);  // the mould cannot melt
-  EXPECT_EQ(phase.mean_solid_fraction(state, 1), 1.0);
+  EXPECT_NEAR(phase.states().mean_solid_fraction(state, 0), 0.25, 1e-8);
+  EXPECT_NEAR(phase.states().mean_solid_fraction(state), 0.25, 1e-8);  // the mould cannot melt
+  EXPECT_EQ(phase.states().mean_solid_fraction(state, 1), 1.0);
 }
 
 }  // namespace

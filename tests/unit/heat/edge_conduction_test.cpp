@@ -160,7 +160,7 @@ std::vector<double> steady(const mesh::Mesh& mesh, AnalysisKind kind, const Law:
   options.solver = linear::SolverKind::direct;
   heat::ThermalPhase phase(mesh, kind, {conductor()}, conditions, options);
   heat::ThermalState end;
-  phase.solve_steady(phase.initial_state(std::array{400.0}), end, 0);
+  phase.solve_steady(phase.states().initial(std::array{400.0}), end, 0);
   return end.temperature;
 }
 

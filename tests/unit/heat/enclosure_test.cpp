@@ -68,7 +68,7 @@ TEST(Enclosure, ExchangesBetweenRoundBodiesWhatClosedFormsSay) {
     heat::ThermalPhase phase(mesh, c.kind, {conductor(1e7), conductor(1e7)}, conditions);
     heat::ThermalState end;
     const heat::ThermalReport report =
-        phase.solve_steady(phase.initial_state(std::array{1000.0, 500.0}), end, 0);
+        phase.solve_steady(phase.states().initial(std::array{1000.0, 500.0}), end, 0);
     const double q =
         c.area_1 * k_sigma * (std::pow(1000.0, 4) - std::pow(500.0, 4)) / (1 / 0.8 + c.ratio * (1 / 0.3 - 1));
     double taken = 0;
@@ -98,7 +98,7 @@ TEST(Enclosure, OfTwoSquaresIsOpenAtTheSides) {
     heat::ThermalPhase phase(mesh, AnalysisKind::solid, {conductor(1e7), conductor(1e7)}, conditions);
     heat::ThermalState end;
     const heat::ThermalReport report =
-        phase.solve_steady(phase.initial_state(std::array{1200.0, 600.0}), end, 0);
+        phase.solve_steady(phase.states().initial(std::array{1200.0, 600.0}), end, 0);
     const double m1 = k_sigma * std::pow(1200.0, 4), m2 = k_sigma * std::pow(600.0, 4),
                  room = k_sigma * std::pow(300.0, 4);
     // J of both by their two equations.
@@ -131,8 +131,8 @@ TEST(Enclosure, KeepsTheHeatOfAClosedCavityInEveryStep) {
   for (const heat::ThermalStepping stepping :
        {heat::ThermalStepping::backward_euler, heat::ThermalStepping::sdirk2}) {
     heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {conductor(30), conductor(30)}, conditions);
-    heat::ThermalState state = phase.initial_state(std::array{1400.0, 600.0});
-    const double start = phase.enthalpy(state);
+    heat::ThermalState state = phase.states().initial(std::array{1400.0, 600.0});
+    const double start = phase.states().enthalpy(state);
     double before = 800, time = 0;
     for (int i = 0; i < 12; ++i) {
       const double dt = i < 6 ? 5 : 60;
@@ -143,12 +143,13 @@ TEST(Enclosure, KeepsTheHeatOfAClosedCavityInEveryStep) {
       double sum = 0;
       for (const heat::ConditionHeat& condition : report.balance.conditions) sum += condition.heat;
       EXPECT_NEAR(sum / report.balance.exchanged, 0, 1e-10);
-      const double apart = phase.mean_temperature(state, 0) - phase.mean_temperature(state, 1);
+      const double apart =
+          phase.states().mean_temperature(state, 0) - phase.states().mean_temperature(state, 1);
       EXPECT_LT(apart, before);
       EXPECT_GT(apart, -0.1);
       before = apart;
     }
-    EXPECT_NEAR(phase.enthalpy(state) / start, 1, 1e-12);
+    EXPECT_NEAR(phase.states().enthalpy(state) / start, 1, 1e-12);
     EXPECT_LT(before, 150);
   }
 }
@@ -164,7 +165,7 @@ TEST(Enclosure, OfAConvexBodyIsItsSurroundings) {
       conditions.radiations.back().enclosed = sees;
     }
     heat::ThermalPhase phase(mesh, AnalysisKind::solid, {conductor(50)}, conditions);
-    heat::ThermalState state = phase.initial_state(std::array{1300.0});
+    heat::ThermalState state = phase.states().initial(std::array{1300.0});
     for (int i = 1; i <= 4; ++i)
       phase.solve(state, state, {.time = 20.0 * i, .dt = 20, .stepping = heat::ThermalStepping::sdirk2});
     results[sees ? 1 : 0] = state.temperature;

@@ -25,7 +25,7 @@ Freezing freeze(const mesh::Mesh& mesh, const material::Material& material, doub
   conditions.films.push_back({"chill", "x_min", {Table(2000.0), false}, Table(300.0)});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {material}, conditions);
   Freezing run;
-  run.state = phase.initial_state(std::vector<double>{901.0});
+  run.state = phase.states().initial(std::vector<double>{901.0});
   double time = 0, moved = 0;
   int busy = 0;
   for (int i = 0; i < steps; ++i) {
@@ -83,10 +83,10 @@ TEST(EnthalpyIteration, HalfTheMatrixGivesTheSameTemperatures) {
         options.alone = alone;
         options.tolerance = 1e-9;
         heat::ThermalPhase phase(mesh, kind, {metal(20)}, conditions, options);
-        heat::ThermalState state = phase.initial_state(std::vector<double>{901.0});
+        heat::ThermalState state = phase.states().initial(std::vector<double>{901.0});
         for (int i = 1; i <= 3; ++i) ASSERT_TRUE(phase.solve(state, state, i * dt, dt).newton.converged);
         ends[alone] = state;
-        bytes[alone] = phase.bytes();
+        bytes[alone] = heat::bytes(phase);
       }
       EXPECT_LT(bytes[1], bytes[0]);
       // The tolerance leaves 1e-9 of the heat moved, which is a few hundred kelvin's.
@@ -116,7 +116,7 @@ TEST(EnthalpyIteration, ConvergesFromRandomTemperaturesOnBothSidesOfTheChange) {
         random.seed(static_cast<unsigned>(plate.input_node[i]));  // the same whatever the partition
         start[i] = spread(random);
       }
-      const heat::ThermalState old = phase.initial_state_at_nodes(start);
+      const heat::ThermalState old = phase.states().initial_at_nodes(start);
       heat::ThermalState state;
       const heat::ThermalReport report = phase.solve(old, state, dt, dt);
       EXPECT_LE(std::abs(report.balance.defect()), 1e-8 * report.balance.exchanged) << range << " " << dt;
@@ -134,9 +134,9 @@ TEST(EnthalpyIteration, ReleasesTheLatentHeatToRoundingForEveryStep) {
       heat::HeatOptions options;
       options.tolerance = 1e-12;
       heat::ThermalPhase phase(plate, AnalysisKind::plane_strain, {metal(range)}, conditions, options);
-      heat::ThermalState state = phase.initial_state(std::vector<double>{950.0});
+      heat::ThermalState state = phase.states().initial(std::vector<double>{950.0});
       double released = 0, stored = 0, in = 0, time = 0;
-      for (int i = 0; phase.mean_solid_fraction(state) < 1.0 && i < 2000; ++i) {
+      for (int i = 0; phase.states().mean_solid_fraction(state) < 1.0 && i < 2000; ++i) {
         time += dt;
         const heat::ThermalReport report = phase.solve(state, state, time, dt);
         released -= report.balance.latent;
@@ -153,17 +153,17 @@ TEST(EnthalpyIteration, FollowsATemperatureThatIsPrescribedWithinTheChange) {
   heat::ThermalConditions conditions;  // liquid first, then exactly the melting temperature, then cold
   conditions.temperatures.push_back({"side", "x_min", Table({0, 10, 20, 30}, {950, 900, 900, 700})});
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {metal(0)}, conditions);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{950.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{950.0});
   double stored = 0, in = 0;
   for (int i = 1; i <= 30; ++i) {
     const heat::ThermalReport report = phase.solve(state, state, i, 1.0);
     stored += report.balance.stored;
     in += report.balance.heat_in();
     if (i == 15) {
-      EXPECT_EQ(phase.mean_solid_fraction(state), 0.0);  // nothing takes the latent heat away
+      EXPECT_EQ(phase.states().mean_solid_fraction(state), 0.0);  // nothing takes the latent heat away
     }
   }
-  EXPECT_GT(phase.mean_solid_fraction(state), 0.01);
+  EXPECT_GT(phase.states().mean_solid_fraction(state), 0.01);
   EXPECT_NEAR(in, stored, 1e-8 * std::abs(stored));
 }
 
@@ -174,7 +174,7 @@ TEST(EnthalpyIteration, ReportsAStepThatCannotConvergeWithItsPlace) {
   heat::ThermalConditions conditions;
   conditions.temperatures.push_back({"side", "x_min", Table(300.0)});
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {metal(0)}, conditions, options);
-  const heat::ThermalState old = phase.initial_state(std::vector<double>{950.0});
+  const heat::ThermalState old = phase.states().initial(std::vector<double>{950.0});
   heat::ThermalState trial = old;
   try {
     phase.solve(old, trial, 10.0, 10.0);

@@ -72,11 +72,11 @@ Outcome burn_through(heat::ThermalPhase& phase, const Case& p, heat::ThermalStat
   heat::BurningState burnt = heat::unlit(r.state.temperature.size());
   double time = 0;
   for (const double dt : steps) {
-    phase.begin_burning(burnt, time, time + dt);
+    heat::begin_burning(phase, burnt, time, time + dt);
     const heat::ThermalState before = r.state;
     const heat::ThermalReport report =
         phase.solve(before, r.state, {.time = time + dt, .dt = dt, .stepping = p.stepping});
-    burnt = phase.burnt(burnt, before, r.state, time, time + dt);
+    burnt = heat::burnt(phase, burnt, before, r.state, time, time + dt);
     for (const heat::ConditionHeat& c : report.balance.conditions)
       if (c.name == "burning") r.released += c.heat;
     r.defect += std::abs(report.balance.defect());
@@ -106,7 +106,7 @@ TEST_P(Burning, AnAdiabaticSleeveWarmsByItsHeatOverItsCapacity) {
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {sleeve()}, burning(500, 7), options);
   for (const std::vector<double>& steps :
        {std::vector<double>(12, 1.0), std::vector<double>{0.3, 0.9, 2.7, 8.1}, std::vector<double>{50, 50}}) {
-    const Outcome r = burn_through(phase, p, phase.initial_state(std::vector<double>{500.0}), steps);
+    const Outcome r = burn_through(phase, p, phase.states().initial(std::vector<double>{500.0}), steps);
     for (const double temperature : r.state.temperature)
       EXPECT_NEAR(temperature, 500 + k_heat / k_capacity, 1e-7);
   }
@@ -126,7 +126,7 @@ TEST_P(Burning, HeatComesEvenly) {
   const mesh::Mesh mesh = block(p.shape);
   const heat::HeatOptions options = options_of(p);
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {sleeve()}, burning(500, 20), options);
-  const Outcome r = burn_through(phase, p, phase.initial_state(std::vector<double>{500.0}), {2, 3, 5});
+  const Outcome r = burn_through(phase, p, phase.states().initial(std::vector<double>{500.0}), {2, 3, 5});
   for (const double temperature : r.state.temperature)
     EXPECT_NEAR(temperature, 500 + 0.5 * k_heat / k_capacity, 1e-7);
 }
@@ -139,16 +139,16 @@ TEST_P(Burning, PlacesThatStayColdKeepTheirHeat) {
   const heat::HeatOptions options = options_of(p);
   const double volume = test::is_3d(p.shape) ? 0.03 * 0.02 * 0.02 : 0.03 * 0.02;
   heat::ThermalPhase cold(mesh, AnalysisKind::plane_strain, {sleeve()}, burning(2000, 5), options);
-  EXPECT_EQ(burn_through(cold, p, cold.initial_state(std::vector<double>{500.0}), {1, 5, 20}).released, 0);
+  EXPECT_EQ(burn_through(cold, p, cold.states().initial(std::vector<double>{500.0}), {1, 5, 20}).released, 0);
   heat::ThermalConditions heated = burning(600, 5);
   heated.fluxes.push_back({"burner", "x_min", 1e6});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {sleeve()}, heated, options);
-  const Outcome first =
-      burn_through(phase, p, phase.initial_state(std::vector<double>{500.0}), std::vector<double>(16, 0.5));
+  const Outcome first = burn_through(phase, p, phase.states().initial(std::vector<double>{500.0}),
+                                     std::vector<double>(16, 0.5));
   EXPECT_GT(first.released, 0);
   EXPECT_LT(first.released, 0.999 * k_heat * volume);
-  const Outcome all =
-      burn_through(phase, p, phase.initial_state(std::vector<double>{500.0}), std::vector<double>(120, 0.5));
+  const Outcome all = burn_through(phase, p, phase.states().initial(std::vector<double>{500.0}),
+                                   std::vector<double>(120, 0.5));
   EXPECT_NEAR(all.released, k_heat * volume, 1e-9 * k_heat * volume);
   EXPECT_LT(all.defect, 1e-6 * k_heat * volume);
 }

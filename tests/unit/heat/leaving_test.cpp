@@ -61,7 +61,7 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
   heat::ThermalPhase phase(both, AnalysisKind::plane_strain, {metal, mould()}, {}, options);
   heat::ThermalPhase reference(alone, AnalysisKind::plane_strain, {metal}, in_air(), options);
 
-  heat::ThermalState state = phase.initial_state(std::vector<double>{920.0, 300.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{920.0, 300.0});
   for (int i = 1; i <= 5; ++i) phase.solve(state, state, i, 1.0);
   heat::ThermalConditions air = in_air();
   air.absent_bodies = {"right"};
@@ -74,7 +74,7 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
   for (std::size_t i = 0; i < both.x.size(); ++i) place[both.input_node[i]] = i;
   std::vector<double> start(alone.x.size());
   for (std::size_t i = 0; i < start.size(); ++i) start[i] = state.temperature[place.at(alone.input_node[i])];
-  heat::ThermalState part = reference.initial_state_at_nodes(start);
+  heat::ThermalState part = reference.states().initial_at_nodes(start);
   for (std::size_t i = 0; i < part.enthalpy.size(); ++i)
     part.enthalpy[i] = state.enthalpy[place.at(alone.input_node[i])];
 
@@ -85,7 +85,7 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
     EXPECT_NEAR(here.balance.stored, there.balance.stored, 1e-7 * there.balance.exchanged);
     ASSERT_EQ(here.balance.conditions.size(), 1u);
   }
-  EXPECT_NEAR(phase.mean_solid_fraction(state), reference.mean_solid_fraction(part), 1e-7);
+  EXPECT_NEAR(phase.states().mean_solid_fraction(state), reference.states().mean_solid_fraction(part), 1e-7);
   const auto mine = by_number(both, state), theirs = by_number(alone, part);
   for (const auto& [node, temperature] : theirs) EXPECT_NEAR(mine.at(node), temperature, 1e-5) << node;
   for (std::size_t i = 0; i < both.x.size(); ++i) {  // the mould keeps what it had
@@ -112,13 +112,13 @@ TEST_P(LeavingBodies, CarryTheHeatThatIsMissingAfterwards) {
   options.integration = GetParam();
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(40), mould()}, {}, options);
   // A mould at 393.15 K, 100 K above what is counted, of 0.03 × 0.02 × 1 m³ and 2.5e6 J/(m³ K).
-  const heat::ThermalState start = phase.initial_state(std::vector<double>{393.15, 393.15});
+  const heat::ThermalState start = phase.states().initial(std::vector<double>{393.15, 393.15});
   heat::ThermalState state = start;  // a copy: with the open rule there is no storage for heat contents
   heat::ThermalConditions later;
   later.absent_bodies = {"right"};
-  const double content = phase.heat_content(state);
+  const double content = phase.states().heat_content(state);
   EXPECT_NEAR(phase.set_conditions(later, &state).away, 0.03 * 0.02 * 2.5e6 * 100, 1e-6);
-  EXPECT_NEAR(phase.heat_content(state), content - 0.03 * 0.02 * 2.5e6 * 100, 1e-9 * content);
+  EXPECT_NEAR(phase.states().heat_content(state), content - 0.03 * 0.02 * 2.5e6 * 100, 1e-9 * content);
   // In a run that is continued, the heat of the bodies was removed before.
   EXPECT_EQ(phase.set_conditions(later).away, 0);
 }
@@ -141,14 +141,14 @@ TEST_P(LeavingBodies, ComeBackNew) {
   const std::vector<material::Material> materials{test::metal(40), mould()};
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, materials, {}, options);
   heat::ThermalPhase reference(mesh, AnalysisKind::plane_strain, materials, {}, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{920.0, 300.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{920.0, 300.0});
   for (int i = 1; i <= 5; ++i) phase.solve(state, state, i, 1.0);
   heat::ThermalConditions alone;
   alone.absent_bodies = {"left"};
   phase.set_conditions(alone, &state);
   for (int i = 6; i <= 8; ++i) phase.solve(state, state, i, 1.0);
 
-  const double content = phase.heat_content(state);
+  const double content = phase.states().heat_content(state);
   const heat::ThermalState before = state;
   const heat::CarriedHeat carried = phase.set_conditions({}, &state, [&](Index, int body) {
     EXPECT_EQ(body, 0);
@@ -156,7 +156,7 @@ TEST_P(LeavingBodies, ComeBackNew) {
   });
   EXPECT_EQ(carried.away, 0);
   EXPECT_GT(carried.along, 0);
-  EXPECT_NEAR(phase.heat_content(state), content + carried.along, 1e-9 * (content + carried.along));
+  EXPECT_NEAR(phase.states().heat_content(state), content + carried.along, 1e-9 * (content + carried.along));
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
     if (mesh.x[i][0] < k_plane - 1e-9) {
       EXPECT_NEAR(state.temperature[i], 920.0, 1e-9);

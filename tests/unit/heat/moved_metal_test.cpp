@@ -29,7 +29,7 @@ struct Block {
     return cooled;
   }
   heat::ThermalState frozen_in_part() {
-    heat::ThermalState state = phase.initial_state(std::vector<double>{950.0});
+    heat::ThermalState state = phase.states().initial(std::vector<double>{950.0});
     for (int i = 1; i <= 8; ++i) phase.solve(state, state, 4.0 * i, 4.0);
     return state;
   }
@@ -68,7 +68,7 @@ TEST_P(MovedMetal, TakesItsHeatAlong) {
     heat::ThermalState state = block.frozen_in_part();
     const heat::ThermalState before = state;
     const double heat = block.heat(state);
-    const std::vector<double> solid = block.phase.solid_fraction(state);
+    const std::vector<double> solid = block.phase.states().solid_fraction(state);
     block.phase.move_metal(block.drained(0.25), &state);
     EXPECT_NEAR(block.heat(state), heat, 1e-12 * heat);
     for (Index i = 0; i < block.mesh.n_owned_nodes; ++i) {
@@ -81,10 +81,10 @@ TEST_P(MovedMetal, TakesItsHeatAlong) {
         EXPECT_GT(state.enthalpy[node], before.enthalpy[node] * block.held[node] * (1 - 1e-9));
     }
     // The room of the nodes stays, and a step closes its balance as before.
-    const double content = block.phase.heat_content(state);
+    const double content = block.phase.states().heat_content(state);
     const heat::ThermalReport report = block.phase.solve(state, state, 36.0, 4.0);
     EXPECT_LT(report.newton.iterations, 30);
-    const double left = content - block.phase.heat_content(state);
+    const double left = content - block.phase.states().heat_content(state);
     EXPECT_GT(left, 0);
     // The same metal again moves nothing.
     const heat::ThermalState still = state;
@@ -100,7 +100,7 @@ TEST_P(MovedMetal, GoesOnFromAStateThatHasItsHeat) {
   run.phase.move_metal(run.drained(0.1), &state);
   heat::ThermalState stopped = state;
   again.phase.move_metal(again.drained(0.1), nullptr);
-  run.phase.forget();
+  heat::forget(run.phase);
   for (int i = 1; i <= 3; ++i) {
     run.phase.solve(state, state, 36.0 + i, 1.0);
     again.phase.solve(stopped, stopped, 36.0 + i, 1.0);
@@ -123,7 +123,7 @@ TEST_P(MovedMetal, LeavesGasThatConducts) {
   for (std::size_t i = 0; i < filled.size(); ++i)
     if (std::abs(block.mesh.x[i][1] - 0.5 * k_height) < 1.5 * k_cell) filled[i] = 0;
   phase.move_metal({k_moves, amount, filled}, nullptr);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{500.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{500.0});
   phase.solve_steady(state, state, 0);
   // Elements with half of their nodes empty conduct by the mean of both. Triangles and tetrahedra have a
   // third or a quarter, so that the field is one of quads and hexes alone.

@@ -17,7 +17,7 @@ TEST_P(OpenRule, ConvergesAndConservesHeat) {
   heat::HeatOptions options;
   options.integration = heat::HeatIntegration::open;
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {test::metal(range)}, conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{901.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{901.0});
   double moved = 0, stored = 0, in = 0;
   for (int i = 1; i <= (test::processes() == 1 ? 20 : 3); ++i) {
     const heat::ThermalReport report = phase.solve(state, state, i * dt, dt);
@@ -37,11 +37,11 @@ TEST(OpenRuleBesides, HoldsAnIsothermalChangeAtItsTemperature) {
   heat::HeatOptions options;
   options.integration = heat::HeatIntegration::open;
   heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {test::metal(0)}, conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{901.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{901.0});
   int freezing = 0;
   for (int i = 1; i <= 20; ++i) {
     phase.solve(state, state, i, 1.0);
-    const std::vector<double> fraction = phase.solid_fraction(state);
+    const std::vector<double> fraction = phase.states().solid_fraction(state);
     for (std::size_t node = 0; node < fraction.size(); ++node) {
       if (fraction[node] == 0) {
         EXPECT_GE(state.temperature[node], 900);
@@ -76,7 +76,7 @@ TEST(OpenRuleBesides, StoresOtherBodiesAtGaussPointsBesideOneThatFreezesIsotherm
         std::vector<std::vector<double>> lower;
         for (const double range : {0.0, 20.0}) {
           heat::ThermalPhase phase(mesh, kind, {test::metal(40), test::metal(range)}, conditions, options);
-          heat::ThermalState state = phase.initial_state(std::vector<double>{905.0, 905.0});
+          heat::ThermalState state = phase.states().initial(std::vector<double>{905.0, 905.0});
           EXPECT_EQ(state.enthalpy.empty(), range > 0);
           for (int i = 1; i <= 5; ++i) {
             const heat::ThermalReport report =

@@ -58,7 +58,7 @@ TEST_P(Places, ALinearSourceAndALinearFluxGiveTheirIntegral) {
   conditions.fluxes = {
       {"flux", "y_max", placed([](const Position& x, double t) { return 1e5 * x[0] * t; }), 2.0}};
   heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
-  const heat::ThermalState start = phase.initial_state(std::array{400.0});
+  const heat::ThermalState start = phase.states().initial(std::array{400.0});
   heat::ThermalState end;
   const heat::ThermalReport report = phase.solve(start, end, 3, 0.5);
   ASSERT_EQ(report.balance.conditions.size(), 2U);
@@ -77,7 +77,7 @@ TEST_P(Places, APrescribedLinearTemperatureIsTheSteadyState) {
       conditions.temperatures.push_back({face, face, placed(linear)});
   heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
   heat::ThermalState end;
-  phase.solve_steady(phase.initial_state(std::array{400.0}), end, 0);
+  phase.solve_steady(phase.states().initial(std::array{400.0}), end, 0);
   double worst = 0;
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
     worst = std::max(worst, std::abs(end.temperature[i] - linear(mesh.x[i], 0)));
@@ -91,7 +91,7 @@ TEST_P(Places, AFactorRestrictsAFilmWhoseCoefficientIsATableOfTemperature) {
     conditions.films = {{"film", "y_max", {Table({300, 500}, {100, 300}), true}, 300.0, std::move(factor)}};
     heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
     heat::ThermalState end;
-    return phase.solve(phase.initial_state(std::array{400.0}), end, 1, 1e-4).balance.conditions[0].heat;
+    return phase.solve(phase.states().initial(std::array{400.0}), end, 1, 1e-4).balance.conditions[0].heat;
   };
   const double whole = heat_in(1.0);
   EXPECT_NEAR(whole, -200 * 100 * 0.2 * depth() * 1e-4, 1e-3 * std::abs(whole));
@@ -117,7 +117,7 @@ TEST_P(Places, ASpotMuchSmallerThanTheElementsGivesItsIntegralToAPerMille) {
   heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
   heat::ThermalState end;
   const double dt = 1e-9;
-  const heat::ThermalReport report = phase.solve(phase.initial_state(std::array{400.0}), end, dt, dt);
+  const heat::ThermalReport report = phase.solve(phase.states().initial(std::array{400.0}), end, dt, dt);
   const double power = 1e9 * 2 * std::numbers::pi * k_sigma * k_sigma * depth();
   EXPECT_NEAR(report.balance.conditions[1].heat, power * dt, 1e-3 * power * dt);
   // A line on triangles, 25 times narrower than they are, shows at none of their nodes and centroids.
@@ -138,7 +138,7 @@ TEST_P(Places, AFilmOnASpotSmallerThanTheElementsTakesItsIntegral) {
   heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
   heat::ThermalState end;
   const double dt = 1e-6;
-  const heat::ThermalReport report = phase.solve(phase.initial_state(std::array{400.0}), end, dt, dt);
+  const heat::ThermalReport report = phase.solve(phase.states().initial(std::array{400.0}), end, dt, dt);
   const double taken = -500 * 100 * std::sqrt(2 * std::numbers::pi) * k_sigma * depth() * dt;
   // On quadratic faces of the closed rule the nodes' areas are not those of the means around them.
   const bool lumped_quadratic = std::get<1>(GetParam()) && mesh::order(shape()) == 2;
@@ -154,7 +154,7 @@ TEST_P(Places, WhatOneProcessCannotEvaluateEveryProcessReports) {
                          })}};
   heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
   heat::ThermalState end;
-  const heat::ThermalState start = phase.initial_state(std::array{400.0});
+  const heat::ThermalState start = phase.states().initial(std::array{400.0});
   EXPECT_THROW(phase.solve(start, end, 1, 1), InputError);
 }
 

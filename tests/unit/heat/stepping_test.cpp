@@ -38,7 +38,7 @@ struct Bar {
     options.integration = rule;
     options.tolerance = 1e-12;
     heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, materials, conditions, options);
-    Run r{phase.initial_state_at_nodes(std::vector<double>(mesh.x.size(), start))};
+    Run r{phase.states().initial_at_nodes(std::vector<double>(mesh.x.size(), start))};
     const double dt = 100.0 / n_steps;
     for (int n = 1; n <= n_steps; ++n) {
       const heat::HeatBalance b =
@@ -91,7 +91,8 @@ TEST(ThermalStepping, Sdirk2StaysWithinTheSurroundingsWhateverTheStepAndClosesTh
     bar.conditions.films = {{"film", "x_min", {Table(1e5)}, Table(ambient)}};
     for (const int n : {1, 3, 10, 100}) {
       heat::ThermalPhase phase(bar.mesh, AnalysisKind::plane_strain, bar.materials, bar.conditions);
-      heat::ThermalState state = phase.initial_state_at_nodes(std::vector<double>(bar.mesh.x.size(), 1000));
+      heat::ThermalState state =
+          phase.states().initial_at_nodes(std::vector<double>(bar.mesh.x.size(), 1000));
       for (int i = 1; i <= n; ++i) {
         const double dt = 100.0 / n;
         const heat::HeatBalance b =
@@ -143,7 +144,8 @@ TEST(ThermalStepping, Sdirk2LetsTheLastMetalToFreezeCoolMonotonicallyAndNotBelow
         heat::ThermalConditions conditions;
         conditions.films.push_back({"film", "x_max", {Table(3000.0)}, Table(k_ambient)});
         heat::ThermalPhase phase(mesh, kind, materials, conditions);
-        heat::ThermalState now = phase.initial_state_at_nodes(std::vector<double>(mesh.x.size(), k_pouring));
+        heat::ThermalState now =
+            phase.states().initial_at_nodes(std::vector<double>(mesh.x.size(), k_pouring));
         for (int n = 1; n <= 40; ++n) {
           const heat::ThermalState before = now;
           const heat::HeatBalance b =
@@ -172,17 +174,17 @@ TEST(ThermalStepping, TheErrorOfAStepIsTheEstimated) {
     heat::HeatOptions options;
     options.tolerance = 1e-12;
     heat::ThermalPhase phase(bar.mesh, AnalysisKind::plane_strain, bar.materials, bar.conditions, options);
-    heat::ThermalState old = phase.initial_state_at_nodes(std::vector<double>(bar.mesh.x.size(), 800));
+    heat::ThermalState old = phase.states().initial_at_nodes(std::vector<double>(bar.mesh.x.size(), 800));
     constexpr double k_dt = 2;
     std::vector<double> flow;
     for (int i = 1; i <= 10; ++i) {
-      flow = phase.flow_at_end(
-          phase.solve(old, old, {.time = i * k_dt, .dt = k_dt, .stepping = stepping}).flows);
+      flow = heat::flow_at_end(
+          phase, phase.solve(old, old, {.time = i * k_dt, .dt = k_dt, .stepping = stepping}).flows);
     }
     heat::ThermalState now = old, fine = old;
     const heat::ThermalReport report =
         phase.solve(old, now, {.time = 11 * k_dt, .dt = k_dt, .stepping = stepping});
-    const std::vector<double> estimate = phase.time_error(now, report.flows, flow);
+    const std::vector<double> estimate = heat::time_error(phase, now, report.flows, flow);
     for (int i = 1; i <= 32; ++i)
       phase.solve(fine, fine,
                   {.time = 10 * k_dt + i * k_dt / 32, .dt = k_dt / 32, .stepping = ThermalStepping::sdirk2});

@@ -47,7 +47,7 @@ TEST_P(Shapes, DeliverTheirPowerHoweverCoarseTheMesh) {
     material::Material metal = test::metal(10);
     metal.phase_changes.clear();
     heat::ThermalPhase phase(mesh, AnalysisKind::solid, {metal}, conditions);
-    const heat::ThermalState start = phase.initial_state(std::array{400.0});
+    const heat::ThermalState start = phase.states().initial(std::array{400.0});
     heat::ThermalState end;
     const auto brought = [&](double from, double to) {
       return phase.solve(start, end, to, to - from).balance.conditions[0].heat;

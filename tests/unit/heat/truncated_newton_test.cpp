@@ -49,7 +49,7 @@ Freezing freeze(const material::Material& material, int divisions, double dt, in
   options.alone = true;
   heat::ThermalPhase phase(mesh, AnalysisKind::solid, {material}, conditions, options);
   Freezing run;
-  run.state = phase.initial_state(std::vector<double>{start});
+  run.state = phase.states().initial(std::vector<double>{start});
   for (int i = 1; i <= steps; ++i) {
     const heat::ThermalReport report = phase.solve(run.state, run.state, i * dt, dt);
     run.mean += static_cast<double>(report.newton.iterations) / steps;
@@ -80,7 +80,7 @@ double freeze_layer(int divisions, int steps) {
   options.alone = true;
   options.stepping = heat::ThermalStepping::sdirk2;
   heat::ThermalPhase phase(layer, AnalysisKind::solid, {alloy()}, conditions, options);
-  heat::ThermalState state = phase.initial_state(std::vector<double>{973.0});
+  heat::ThermalState state = phase.states().initial(std::vector<double>{973.0});
   double mean = 0;
   for (int i = 1; i <= steps; ++i) {
     const heat::ThermalReport report =
@@ -141,7 +141,7 @@ TEST(TruncatedNewton, FollowsAFrontThroughHundredsOfCellsInOneStep) {
     heat::ThermalConditions conditions;
     conditions.temperatures.push_back({"chill", side, Table(300.0)});
     heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {metal}, conditions);
-    heat::ThermalState state = phase.initial_state(std::vector<double>{start});
+    heat::ThermalState state = phase.states().initial(std::vector<double>{start});
     int worst = 0;
     double mean = 0;
     for (int i = 1; i <= 8; ++i) {
@@ -177,7 +177,7 @@ TEST(TruncatedNewton, FollowsAFrontThroughManyLayersInTheSolid) {
         options.tolerance = tolerance;
         heat::ThermalPhase phase(mesh, solid ? AnalysisKind::solid : AnalysisKind::plane_strain,
                                  {test::metal(0)}, conditions, options);
-        heat::ThermalState state = phase.initial_state(std::vector<double>{start});
+        heat::ThermalState state = phase.states().initial(std::vector<double>{start});
         for (int i = 1; i <= 5; ++i)
           EXPECT_LE(phase.solve(state, state, 20.0 * i, 20.0).newton.iterations, most)
               << mesh::name(shape) << " " << start << " K, step " << i << ", tolerance " << tolerance;

@@ -1,8 +1,9 @@
-/// Derivatives of the heat through contact with respect to the displacement.
+/// Each point adds what moves with the displacement times the rate of that at every node.
+#include "contact/heat/heat_coupling.hpp"
+
 #include <algorithm>
 
 #include "contact/heat/heat_run.hpp"
-#include "contact/heat/heat_term.hpp"
 #include "contact/points/positive_shares.hpp"
 #include "numbers/index_casts.hpp"
 
@@ -18,40 +19,18 @@ double fourth(double t) {
   return cube(t) * t;
 }
 
-/// Adds blocks of all pairs of nodes to the derivative of heat by displacements.
-void add_blocks(std::span<const double> values, std::span<const SlotCache::Slot> slots,
-                linear::CoupledMatrix& matrix) {
-  const auto components = as_size(matrix.components());
-  for (std::size_t e = 0; e < slots.size(); ++e) {
-    double* const to = matrix.heat_by_displacement(slots[e]);
-    for (std::size_t c = 0; c < components; ++c) to[c] += values[e * components + c];
-  }
-}
-
-bool at_rest(std::span<const Point> rates) {
-  return std::all_of(rates.begin(), rates.end(), [](const Point& v) { return v == Point{}; });
-}
-
-/// Whether a point of n nodes moves along the master: most points of a step do not, and the slopes of their
-/// shares, which cost most, are not computed.
-bool moves(std::span<const Point> share, std::size_t n_slave, std::size_t n) {
-  for (std::size_t a = n_slave; a < n; ++a)
-    if (!at_rest(share.subspan(a * n, n))) return true;
-  return false;
-}
-
-}  // namespace
-
-void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperature,
-                             std::span<double> heat) const {
-  const HeatPoint& point = points_[as_size(s.point)];
-  const double w = partners_.weight[as_size(s.point)];
+/// Computes the derivative with respect to g_N of the heat that every node gives off.
+void add_gap_slope(const HeatPoints& points, const HeatAtPoint& s, std::span<const double> temperature,
+                   std::span<double> heat) {
+  const HeatPoint& point = points.list()[as_size(s.point)];
+  const double w = points.interface().partners.weight[as_size(s.point)];
   // Conductance depends on the gap directly and, where the point is closed, on pressure, which the
   // penetration changes by the slope of the contact law.
-  const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
+  const Conductance h =
+      points.conductance(s.point, point.penetration, point.pressure, 0.5 * (s.slave + s.master));
   const double slope = w * (h.by_pressure * point.pressure_slope + h.by_penetration);
   // By the penetration, which is minus the gap.
-  if (s.radiation > 0) add_exchange(s, temperature, 0, -w * radiation_[as_size(s.point)].by_gap, heat);
+  if (s.radiation > 0) add_exchange(s, temperature, 0, -w * points.radiation_by_gap(s.point), heat);
   if (slope != 0) {
     add_exchange(s, temperature, slope, 0, heat);
     // An interface with a temperature of its own exchanges with each side by a flux that the
@@ -68,12 +47,13 @@ void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperatu
   add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, heat);
 }
 
-// B of the master is in Θ_m = −Σ B_b Θ_b, and says which node takes the heat.
-void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> temperature, std::size_t b,
-                               std::span<double> heat) const {
+/// Adds ∂r_a/∂B_b for one node of the master: B of the master is in Θ_m = −Σ B_b Θ_b, and says which node
+/// takes the heat.
+void add_share_slope(const HeatAtPoint& s, double w, std::span<const double> temperature, std::size_t b,
+                     std::span<double> heat) {
   // A share B_b multiplies nodal temperature: the mean of the master moves by −Θ_b, and with it
   // both exchanges.
-  const double w = partners_.weight[as_size(s.point)], t = temperature[as_size(s.nodes[b])];
+  const double t = temperature[as_size(s.nodes[b])];
   const double across = w * (s.h.value * t + s.radiation * fourth(t));
   for (std::size_t a = 0; a < (s.nodal ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
   // The derivative of the heat that the node itself gives off.
@@ -98,44 +78,78 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
   add_sides(s, {by_share * by_mean[0], by_share * by_mean[1]}, heat);
 }
 
-void HeatTerm::add_share_slopes(const AtPoint& s, std::span<const double> temperature,
-                                std::span<double> heat) const {
+/// The same of every node of the master, [b][a]; with positive shares by the chain of their slopes.
+void add_share_slopes(const HeatPoints& points, const HeatAtPoint& s, std::span<const double> temperature,
+                      std::span<double> heat) {
+  const double w = points.interface().partners.weight[as_size(s.point)];
   const std::size_t n = s.nodes.size(), n_master = n - s.n_slave;
-  if (!limited(s.point)) {
-    for (std::size_t b = s.n_slave; b < n; ++b) add_share_slope(s, temperature, b, heat.subspan(b * n, n));
+  if (!s.limited) {
+    for (std::size_t b = s.n_slave; b < n; ++b) add_share_slope(s, w, temperature, b, heat.subspan(b * n, n));
     return;
   }
   // Where positive shares are in use they change with the place through the plain ones: the chain rule.
   std::vector<double> shares(n_master), positive(n_master), slope(n_master * n_master, 0.0), of_positive(n);
-  for (std::size_t b = 0; b < n_master; ++b) shares[b] = -partners_.share_of(s.point)[s.n_slave + b];
-  positive_shares(dimension_, shares, positive, slope);
+  for (std::size_t b = 0; b < n_master; ++b)
+    shares[b] = -points.interface().partners.share_of(s.point)[s.n_slave + b];
+  positive_shares(points.interface().dimension, shares, positive, slope);
   for (std::size_t c = 0; c < n_master; ++c) {
     of_positive.assign(n, 0.0);
-    add_share_slope(s, temperature, s.n_slave + c, of_positive);
+    add_share_slope(s, w, temperature, s.n_slave + c, of_positive);
     for (std::size_t b = 0; b < n_master; ++b)
       for (std::size_t a = 0; a < n; ++a)
         heat[(s.n_slave + b) * n + a] += slope[c * n_master + b] * of_positive[a];
   }
 }
 
-void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index point)>& rates_of,
-                                        std::span<const double> temperature, linear::CoupledMatrix& matrix) {
-  if (!active_) return;
-  if (displacement_ != &matrix.displacement()) {
-    displacement_ = &matrix.displacement();
-    displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
+/// Adds blocks of all pairs of nodes to the derivative of heat by displacements.
+void add_blocks(std::span<const double> values, std::span<const SlotCache::Slot> slots,
+                linear::CoupledMatrix& matrix) {
+  const auto components = as_size(matrix.components());
+  for (std::size_t e = 0; e < slots.size(); ++e) {
+    double* const to = matrix.heat_by_displacement(slots[e]);
+    for (std::size_t c = 0; c < components; ++c) to[c] += values[e * components + c];
   }
+}
+
+bool at_rest(std::span<const Point> rates) {
+  return std::all_of(rates.begin(), rates.end(), [](const Point& v) { return v == Point{}; });
+}
+
+/// Whether a point moves along the master: most points of a step do not, and the slopes of their shares,
+/// which cost most, are not computed.
+bool moves(const HeatAtPoint& s, std::span<const Point> share) {
+  const std::size_t n = s.nodes.size();
+  for (std::size_t a = s.n_slave; a < n; ++a)
+    if (!at_rest(share.subspan(a * n, n))) return true;
+  return false;
+}
+
+}  // namespace
+
+/// Slots are those of this matrix and pattern from here on.
+void HeatCoupling::bind(const linear::BlockMatrix& displacement) {
+  if (displacement_ == &displacement && bindings_ == term_.bindings()) return;
+  bindings_ = term_.bindings();
+  displacement_ = &displacement;
+  slots_.bind(displacement, n_owned_, points_.interface().partners.n_points());
+}
+
+void HeatCoupling::add(const std::function<HeatRates(Index point)>& rates_of,
+                       std::span<const double> temperature, linear::CoupledMatrix& matrix) {
+  if (!points_.interface().active) return;
+  const PartnerList& partners = points_.interface().partners;
+  bind(matrix.displacement());
   // Each point adds ∂r_a by what moves with the displacement (gap, weight, trial traction, place on the
   // master) times the rate of that at every node. Points with the same nodes are summed in one run of blocks,
   // which is then added to the matrix.
   const auto components = as_size(matrix.components());
   std::vector<double> per_gap, per_trial, per_share, per_weight;  // ∂r_a
-  Run run;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[as_size(p)] == 0) continue;
+  HeatRun run;
+  for (Index p = 0; p < partners.n_points(); ++p) {
+    if (partners.partnered[as_size(p)] == 0) continue;
     const HeatRates rates = rates_of(p);
     if (rates.penetration.empty()) continue;
-    const AtPoint s = see(p, temperature);
+    const HeatAtPoint s = points_.see(p, temperature);
     const std::size_t n = s.nodes.size();
     if (!run.holds(s.nodes)) run.start(p, s.nodes, n * n * components);
     std::fill(run.values.begin(), run.values.end(), 0.0);
@@ -148,7 +162,7 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     };
     // First the gap, through conductance and radiation.
     per_gap.assign(n, 0.0);
-    add_gap_slope(s, temperature, per_gap);
+    add_gap_slope(points_, s, temperature, per_gap);
     add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
     // Then the weight of the point, where segments are cut again as bodies slide: the heat itself is
     // proportional to it.
@@ -158,17 +172,17 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
       add(per_weight, [&](std::size_t b) -> const Point& { return rates.weight[b]; });
     }
     // Then the trial traction, which sets the heat of friction where both are solved together.
-    if (const auto& joint = points_[as_size(p)].joint; joint && !rates.trial.empty()) {
+    if (const auto& joint = points_.list()[as_size(p)].joint; joint && !rates.trial.empty()) {
       per_trial.assign(n, 0.0);
-      const double source = -partners_.weight[as_size(p)] * joint->source_by_trial;
+      const double source = -partners.weight[as_size(p)] * joint->source_by_trial;
       add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
       add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
     }
     // Last the place on the master, by the rates of the shares of its nodes.
-    const bool moved = moves(rates.share, s.n_slave, n);
+    const bool moved = moves(s, rates.share);
     if (moved) {
       per_share.assign(n * n, 0.0);
-      add_share_slopes(s, temperature, per_share);
+      add_share_slopes(points_, s, temperature, per_share);
     }
     for (std::size_t a = s.n_slave; a < n && moved; ++a) {
       const auto rates_of_node = rates.share.subspan(a * n, n);
@@ -176,7 +190,7 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
         add(std::span(per_share).subspan(a * n, n),
             [&](std::size_t b) -> const Point& { return rates_of_node[b]; });
     }
-    add_blocks(run.values, displacement_slots_.slots(run.first, run.nodes), matrix);
+    add_blocks(run.values, slots_.slots(run.first, run.nodes), matrix);
   }
 }
 
