@@ -40,7 +40,7 @@ inline OfAll<double> tangent_errors(coupling::CoupledNewton& newton, linear::Cou
                                     const mechanics::MechanicalState& old,
                                     const mechanics::MechanicalPass& pass, const std::vector<double>& u,
                                     std::span<const double> du, std::vector<double> dt, double h) {
-  heat::ThermalIteration& thermal = newton.thermal();
+  heat::ThermalEquations& thermal = newton.thermal().equations();
   std::vector<double> force(newton.force().size()), heat(thermal.residual().size());
   const std::size_t n_forces = heat.size() * static_cast<std::size_t>(a.components());
   newton.multiply(du, dt, force, heat);

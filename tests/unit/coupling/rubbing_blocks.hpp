@@ -172,8 +172,8 @@ class Iterate {
     const coupling::State& from = blocks.state;
     pass_.time = pass_.dt = dt;
     pass_.temperature = from.heat.temperature;
-    newton.thermal().begin(from.heat, dt, dt);
-    pass_.iterate_temperature = newton.thermal().temperature();
+    newton.thermal().begin(from.heat, dt, LoadWindow::backward_euler(0, dt));
+    pass_.iterate_temperature = newton.thermal().state().temperature;
     blocks.pair->begin(from.contacts[0], {.time = dt,
                                           .dt = dt,
                                           .displacement = from.mechanics.displacement,
@@ -188,8 +188,8 @@ class Iterate {
     newton.evaluate(old, pass_, u_);
     newton.assemble(old, u_, 0);
     std::vector<double> warmer = noise(blocks_.mesh, 1, 0.7, 40);
-    newton.thermal().set_direction(warmer, {});
-    newton.thermal().move(1.0);
+    newton.thermal().equations().set_direction(warmer, {});
+    newton.thermal().equations().move(1.0);
     newton.evaluate(old, pass_, u_);
   }
   /// Errors of the tangent here along a direction.

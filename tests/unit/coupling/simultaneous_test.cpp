@@ -91,8 +91,8 @@ double tangent_error(Model& m, double strain) {
   heat::ThermalIteration& thermal = newton.thermal();
   constexpr double k_dt = 0.5;
   mechanics::MechanicalPass pass{.time = k_dt, .dt = k_dt, .temperature = m.state.heat.temperature};
-  thermal.begin(m.state.heat, k_dt, k_dt);
-  pass.iterate_temperature = thermal.temperature();
+  thermal.begin(m.state.heat, k_dt, LoadWindow::backward_euler(0, k_dt));
+  pass.iterate_temperature = thermal.state().temperature;
   m.mechanics->equations().begin(m.state.mechanics, pass);
 
   // Some state: a jump from the start.
@@ -101,8 +101,8 @@ double tangent_error(Model& m, double strain) {
   std::vector<double> warmer = noise(mesh, 1, 0.7, 30);
   newton.evaluate(m.state.mechanics, pass, std::vector<double>(u.size(), 0.0));
   newton.assemble(m.state.mechanics, std::vector<double>(u.size(), 0.0), 0);
-  thermal.set_direction(warmer, {});
-  thermal.move(1.0);
+  thermal.equations().set_direction(warmer, {});
+  thermal.equations().move(1.0);
   newton.evaluate(m.state.mechanics, pass, u);
   linear::CoupledMatrix& a = newton.assemble(m.state.mechanics, u, 0);
 

@@ -195,7 +195,7 @@ TEST(BrittleStrain, TakesTheShareOfAStepInWhichTheMetalIsBrittle) {
     const double across = kind.analysis == AnalysisKind::plane_strain ? 1 : 0.5;
     // Two principal values are equal: the closed form loses half of its digits.
     for (const double value : pressed.fields().brittle) EXPECT_NEAR(value, across * sum, 1e-9);
-    const std::vector<CriterionResult> findings = criteria::findings_of(pulled.criteria(), pulled.record());
+    const std::vector<CriterionResult> findings = pulled.criteria().findings(pulled.record());
     ASSERT_EQ(findings.size(), 1u);
     EXPECT_NEAR(findings[0].value, sum, 1e-12);
   }
