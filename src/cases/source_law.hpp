@@ -3,7 +3,7 @@
 ///   struct Decaying {
 ///     static constexpr std::string_view name = "decaying", doc = "…";
 ///     double initial = 0, lifetime = 0;  // [W/m³], [s]
-///     static void keys(Section<Decaying>& s) { s.quantity("initial_power", &Decaying::initial, "W/m3")…; }
+///     static void keys(Section<Decaying>& s) { s.quantity("first_power", &Decaying::initial, "W/m3")…; }
 ///     std::string power() const;         // a formula of x, y, z, r [m] and t [s] for W/m³
 ///   };
 ///   const AddSourceLaw<Decaying> k_decaying;   // at namespace scope: the key `law` of sources knows

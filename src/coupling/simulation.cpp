@@ -131,8 +131,7 @@ std::vector<TimeEvent> Simulation::events(const Progress& p) const {
 
 /// Gives the phases the conditions of the stage.
 /// @param anew            the stage begins at the committed time
-/// @param changed_before  the state has been changed for it: a run that was stopped before the first step
-/// goes on
+/// @param changed_before  the state is changed for it already: a run that stopped before its first step
 void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   const Stage& stage = options_.stages[p.stage];
   const bool changes = anew && !changed_before;
@@ -147,17 +146,16 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
     p.carried += heat;
     p.shots.heat += heat;
   }
-  if (!stage.pours) return;
-  p.committed.poured = p.committed.time;
-  if (followers_.criteria == nullptr) return;
+  if (stage.pours) p.committed.poured = p.committed.time;
+  if (!stage.pours || followers_.criteria == nullptr) return;
+  const criteria::Criteria& criteria = *followers_.criteria;
   const criteria::CriterionInput start{0, p.committed.heat, p.committed.mechanics};
   // What a die bears is counted from shot to shot, all else from the first pour of each of them.
+  auto& record = p.committed.criteria;
   if (stage.begins_shot && stage.shot > 1)
-    p.committed.criteria = followers_.criteria->next_shot(p.committed.criteria, start);
-  else if (stage.begins_shot || p.stage == 0)
-    p.committed.criteria = followers_.criteria->initial(start);
+    record = criteria.next_shot(record, start);
   else
-    p.committed.criteria = followers_.criteria->restart(p.committed.criteria, start);
+    record = stage.begins_shot || p.stage == 0 ? criteria.initial(start) : criteria.restart(record, start);
 }
 
 void Simulation::grow(Progress& p) {
@@ -420,10 +418,9 @@ void Simulation::check_limits(Progress& p, const PlannedStep& step, const StepMe
   const Strictest limit = strictest(options_.stages[p.stage].step.limits, measure);
   if (!limit.exceeded) return;
   p.step->forget();
-  if (p.warned) return;
+  if (std::exchange(p.warned, true)) return;
   logging::warn("t = {:g} s: {}, which steps down to {:g} s do not bring down; the run goes on", step.time,
                 limit.excess, step.dt);
-  p.warned = true;
 }
 
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {

@@ -48,6 +48,7 @@ CriterionRecord DieWear::restart(const CriterionRecord& before, const CriterionI
 }
 
 CriterionRecord DieWear::next_shot(const CriterionRecord& before, const CriterionInput& /*start*/) const {
+  // The wear of the shot that ends is what was added since its start.
   CriterionRecord record = before;
   std::vector<double>&depth = record.columns[k_depth].values, &start = record.columns[k_depth_before].values;
   for (std::size_t node = 0; node < depth.size(); ++node)
@@ -57,6 +58,7 @@ CriterionRecord DieWear::next_shot(const CriterionRecord& before, const Criterio
 }
 
 void DieWear::step(const CriterionInput& /*old*/, const CriterionInput& next, CriterionRecord& record) {
+  // Contact knows the wear of owned nodes alone.
   if (next.wear.empty()) return;
   std::vector<double>& depth = record.columns[k_depth].values;
   for (std::size_t node = 0; node < as_size(mesh_.n_owned_nodes); ++node)

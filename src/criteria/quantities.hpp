@@ -427,7 +427,6 @@ inline constexpr std::array k_of_pools = {&k_liquid_pool, &k_pool_volume, &k_fee
 
 /// Fields of Feeding, in their order.
 inline constexpr std::array k_of_feeding = {&k_emptied, &k_unfed_pores};
-
 /// Fields of GasPores, and further ones of Feeding where there is gas.
 inline constexpr std::array k_of_gas = {&k_gas_pores};
 

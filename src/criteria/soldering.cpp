@@ -26,6 +26,7 @@ std::vector<char> soldering_bodies(const CriterionContext& context) {
 }  // namespace
 
 double part_above(double from, double to, double limit) {
+  // Temperatures are linear in a step.
   const double low = std::min(from, to), high = std::max(from, to);
   if (low >= limit) return high > limit ? 1.0 : 0.0;
   return high > limit ? (high - limit) / (high - low) : 0.0;
@@ -53,6 +54,7 @@ CriterionRecord Soldering::restart(const CriterionRecord& before, const Criterio
 }
 
 CriterionRecord Soldering::next_shot(const CriterionRecord& before, const CriterionInput& start) const {
+  // The shot that ends becomes the last one, and the new one begins at zero.
   CriterionRecord record = initial(start);
   record.columns[k_time_of_last].values = before.columns[k_time].values;
   return record;
@@ -69,6 +71,7 @@ void Soldering::step(const CriterionInput& old, const CriterionInput& next, Crit
 }
 
 double Soldering::longest(const CriterionRecord& record, std::size_t node) const {
+  // Within a shot the last whole one counts until it is exceeded.
   if (body_[node] < 0) return k_nothing;
   return std::max(record.columns[k_time].values[node], record.columns[k_time_of_last].values[node]);
 }

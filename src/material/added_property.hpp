@@ -1,10 +1,10 @@
 /// Properties of a material that the code which uses them declares in its own file, as criteria and laws
 /// declare themselves:
 ///
-///   const material::AddProperty k_bridged({.key = "bridged_fraction", .unit = "1", .least = 0.5,
+///   const material::AddProperty k_limit({.key = "limit_fraction", .unit = "1", .least = 0.5,
 ///                                          .greatest = 1, .doc = "Solid fraction at which grains bridge."});
 ///   …
-///   const Table* given = k_bridged.of(material);   // null: the card has none
+///   const Table* given = k_limit.of(material);   // null: the card has none
 ///
 /// The key then stands on the first level of every material file, as density does: a number or a table over
 /// temperature, with unit, source and validity. Reading with its checks, `explain`, the schema, the reference
@@ -21,7 +21,7 @@
 namespace solidus::material {
 
 struct AddedProperty {
-  std::string_view key;   ///< "bridged_fraction"
+  std::string_view key;   ///< "limit_fraction"
   std::string_view unit;  ///< SI; "1" for a number
   /// The least and the greatest value, in SI, both allowed.
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();

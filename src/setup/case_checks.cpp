@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "cases/stage_input.hpp"
@@ -415,8 +414,7 @@ void check_case(const cases::CaseSpec& spec) {
   check_analysis(spec.analysis, as_size(spec.dimension()));
   check_mesh(spec.mesh, spec.analysis);
   check_time(spec);
-  if (spec.bodies.empty())
-    throw InputError(spec.mesh.where, "the case has no body", "at least one [[body]] section");
+  if (spec.bodies.empty()) throw InputError(spec.mesh.where, "the case has no body", "at least one [[body]]");
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
   check_rotation(spec);
@@ -445,7 +443,7 @@ void check_case(const cases::CaseSpec& spec) {
       throw InputError(c.where, fmt::format("'{}' burns, and a steady analysis has no time for it", c.name),
                        "steady = false, or kind = \"source\"");
   if (spec.time.steady && spec.dynamics)
-    throw InputError(spec.dynamics->where, "inertia in a steady analysis, in which nothing moves",
+    throw InputError(spec.dynamics->where, "inertia in a steady analysis",
                      "no [dynamics], or steady = false");
 }
 

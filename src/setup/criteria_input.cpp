@@ -190,6 +190,7 @@ std::vector<std::optional<criteria::FatigueLaw>> fatigue_laws(const cases::CaseS
 bool wears(const cases::CaseSpec& spec, const mesh::Mesh& mesh, std::size_t body) {
   std::vector<char> followed(spec.bodies.size(), 0);
   followed[body] = 1;
+  // A side of a contact counts where its surface has a node of the body.
   const std::vector<int> of_body = criteria::die_nodes(mesh, followed);
   bool here = false;
   for (const cases::ContactSpec& c : spec.contacts) {

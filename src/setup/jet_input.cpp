@@ -91,6 +91,7 @@ void check_shot_sleeves(const cases::CaseSpec& spec) {
 
 double temperature_in_die(const cases::CaseSpec& spec, const cases::BodySpec& body,
                           const material::Material& material) {
+  // Without a sleeve the metal is in the die as it was poured.
   const double poured = body.initial_temperature.table.value(0);
   const cases::ShotSleeveSpec* s = sleeve_of(spec, body);
   if (s == nullptr) return poured;
@@ -98,6 +99,7 @@ double temperature_in_die(const cases::CaseSpec& spec, const cases::BodySpec& bo
   const double after = heat::temperature_after(sleeve, material.enthalpy(), poured);
   logging::info("body '{}': {:.1f} degC when it is poured into the shot sleeve, {:.1f} degC in the die",
                 body.name, poured - k_zero_celsius, after - k_zero_celsius);
+  // Metal that froze in the sleeve could not fill the die; a little solid is worth a warning.
   const material::PhaseChange* freezing = material.solidification();
   if (freezing == nullptr) return after;
   if (after <= freezing->fraction.solidus())

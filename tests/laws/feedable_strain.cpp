@@ -3,8 +3,8 @@
 /// Trans. A 30 (1999) 449–455.
 ///
 /// Melt flows through the mush towards its root against a drop of pressure. It replaces what shrinkage and
-/// straining across the front take away, from the root (f_s = 0.98 unless the card
-/// says otherwise, where grains bridge) to the liquidus:
+/// straining across the front take away, from the root (f_s = 0.98 unless the card says otherwise, where
+/// grains bridge) to the liquidus:
 ///
 ///   ΔP = 180 μ/(λ₂² G) [ v_T β A + (1 + β) ε̇ B/G ]
 ///   A = ∫ f_s²/(1 − f_s)² dT,   B = ∫ f_s² F_s/(1 − f_s)³ dT,   F_s(T) = ∫ f_s dT from the root
@@ -49,7 +49,7 @@ constexpr quantities::Quantity k_feedable_strain_rate{
 const material::AddProperty k_bridged(
     {.key = "bridged_fraction",
      .unit = "1",
-     .least = 0.5,
+     .least = 0.3,
      .greatest = 1,
      .doc = "Solid fraction at which grains bridge and no melt passes any more; 0.98 where it is left out."});
 

@@ -25,19 +25,19 @@ divisions = [2, 2]
 end = "100 s"
 step = "5 s"
 [[body]]
-name = "body"
+name = "block"
 material = "own.toml"
 initial_temperature = "20 degC"
 [[thermal_condition]]
 name = "curing"
-group = "body"
+group = "block"
 kind = "source"
 POWER
 [[probe]]
 name = "mean"
 kind = "mean"
 field = "temperature"
-group = "body"
+group = "block"
 unit = "K"
 """
 LAW = f'law = "{NAME}"\ninitial_power = "{POWER:g} W/m3"\nlifetime = "{LIFETIME:g} s"'

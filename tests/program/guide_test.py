@@ -118,7 +118,9 @@ class Guide(ProgramTest):
                     elif page.name == "study.md":
                         read_study(self.write("study.toml", block.text))
                     elif page.name == "calibrate.md":
-                        read_calibration(self.write("calibrate.toml", block.text))
+                        # A calibration seeks something: a part of one that shows other keys gets an unknown.
+                        sought = "" if "unknown" in fragment else '\n[[unknown]]\nname = "clock"\nkind = "clock"\n'
+                        read_calibration(self.write("calibrate.toml", block.text + sought))
                     elif page.name == "customer.md":
                         self.write("logo.svg", "<svg/>")
                         read_template(self.write("customer.toml", block.text))

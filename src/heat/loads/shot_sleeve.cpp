@@ -17,6 +17,7 @@ double pool_angle(double filling) {
 }
 
 double wall_per_volume(const ShotSleeve& sleeve) {
+  // The wetted arc over the section of the pool, and the face of the plunger.
   const double angle = pool_angle(sleeve.filling), d = sleeve.diameter;
   const double section = d * d / 8 * (angle - std::sin(angle));
   return d * angle / 2 / section + 1 / sleeve.length;
