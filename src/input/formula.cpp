@@ -64,7 +64,7 @@ std::size_t operand_end(const std::string& text, std::size_t from, int step) {
   const char opens = step > 0 ? '(' : ')', closes = step > 0 ? ')' : '(';
   int depth = 0;
   std::size_t i = from;
-  for (; i < text.size(); i += as_size(step)) {  // below zero it wraps round to the end
+  for (; i < text.size(); i += static_cast<std::size_t>(step)) {  // below zero it wraps round to the end
     if (text[i] == opens) ++depth;
     if (text[i] == closes && --depth < 0) break;
     if (depth == 0 && ends_operand(text[i])) break;
