@@ -312,6 +312,8 @@ void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state)
   const std::string reason = stop.asked ? "as asked" : physics.empty() ? stop.reason : physics;
   // Without a step of this run there are no stresses to show.
   const bool moved = !options_.continue_from || state.time > options_.continue_from->state.time;
+  // Bodies may have grown since the last step was recorded: what is active is that of phases made anew.
+  if (moved && phases_.growth != nullptr) fields_.update(state);
   if (moved) write_fields(state);
   conclude("stopped: " + reason, state, moved);
 }

@@ -24,6 +24,7 @@
 #include "run/session.hpp"
 #include "run/transient.hpp"
 #include "setup/fingerprint.hpp"
+#include "setup/jet_input.hpp"
 #include "setup/mesh_input.hpp"
 #include "system/alike_texts.hpp"
 #include "system/free_memory.hpp"
@@ -246,6 +247,7 @@ void Session::change(const std::string& assignment) {
   cases::CaseSpec spec;
   cases::case_keys().assign(spec, document);
   cases::resolve_stages(spec);
+  setup::add_jets(spec);
   cases::set_powers(spec);
   setup::check_case(spec);
   cases::vary_conditions(spec);
