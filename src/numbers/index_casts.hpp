@@ -2,27 +2,21 @@
 /// containers.
 #pragma once
 
-#include <cassert>
 #include <concepts>
 #include <cstddef>
-#include <limits>
-#include <utility>
 
 #include "numbers/types.hpp"
 
 namespace solidus {
 
-/// The number `i` as a position in a container or as its size. A negative number is a mistake of the caller,
-/// which builds with assertions report.
+/// The number `i` as a position in a container or as its size. A negative one becomes larger than every size,
+/// and adding it to a size subtracts, as with the cast that this is.
 constexpr std::size_t as_size(std::integral auto i) noexcept {
-  assert(std::in_range<std::size_t>(i));
   return static_cast<std::size_t>(i);
 }
 
-/// The size or number `n` as a local number. One process holds fewer than 2^31 nodes, elements and faces,
-/// which builds with assertions check.
+/// The size or number `n` as a local number, of which one process holds fewer than 2^31.
 constexpr Index as_index(std::integral auto n) noexcept {
-  assert(std::in_range<Index>(n));
   return static_cast<Index>(n);
 }
 
