@@ -150,7 +150,7 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   if (!stage.pours || followers_.criteria == nullptr) return;
   const criteria::Criteria& criteria = *followers_.criteria;
   const criteria::CriterionInput start{0, p.committed.heat, p.committed.mechanics};
-  // What a die bears is counted from shot to shot, all else from the first pour of each of them.
+  // Criteria of dies go on from shot to shot; all others begin anew with the pour of each shot.
   auto& record = p.committed.criteria;
   if (stage.begins_shot && stage.shot > 1)
     record = criteria.next_shot(record, start);

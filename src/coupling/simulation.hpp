@@ -57,7 +57,7 @@ enum class Outcome {
   interrupted  ///< asked to stop; the last committed state is kept
 };
 
-/// What goes along with the steps of a run, each only where it is there. What is pointed to must outlive the
+/// Parts of a run that are informed of its steps; null where the run has none. They must outlive the
 /// simulation.
 struct Followers {
   /// Brings State::criteria along with every step that is committed.
@@ -113,7 +113,7 @@ class Simulation {
   ~Simulation();
   /// Observers are called in the order they were added; they must outlive the simulation.
   void add(Observer& observer) { observers_.push_back(&observer); }
-  /// What goes along with the run; to be set before it begins.
+  /// The parts that are informed of the steps; to be set before the run begins.
   Followers& followers() { return followers_; }
   /// Gives the solid fraction of a committed state, of the bodies that are active in the present stage, as
   /// StepEffort gives it of the states that follow. Collective.

@@ -17,7 +17,7 @@ namespace solidus::heat {
 
 class EnthalpyNewton;
 
-/// What is left of the balance at the last evaluation, over all processes.
+/// The imbalance of heat at the last evaluation, over all processes.
 struct HeatImbalance {
   double unbalanced = 0;  ///< Σ|F_i| where free [W]
   double moved = 0;       ///< heat moved per time [W]

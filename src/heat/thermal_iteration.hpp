@@ -34,7 +34,7 @@ class ThermalIteration {
   /// F at the state of now, its tangent and the way to further states.
   ThermalEquations& equations() { return equations_; }
   const ThermalEquations& equations() const { return equations_; }
-  /// What the temperatures may come to.
+  /// The bounds of the temperatures.
   TemperatureWatch& watch() { return watch_; }
 
   /// The state reached and its heat balance, against H*; latent heat is that between the temperatures at t_n

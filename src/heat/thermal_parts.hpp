@@ -1,5 +1,5 @@
-/// What a thermal phase consists of: where its bodies store their heat, the system of conduction and loads,
-/// and what solves it. Its steps (thermal_phase.hpp), its states (thermal_states.hpp) and a step that is
+/// Parts of a thermal phase: the storage of heat in its bodies, the system of conduction and loads, and its
+/// solver. Its steps (thermal_phase.hpp), its states (thermal_states.hpp) and a step that is
 /// solved together with displacements (thermal_iteration.hpp) work with these.
 #pragma once
 

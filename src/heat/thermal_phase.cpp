@@ -1,5 +1,5 @@
-/// What a phase is asked besides its steps, which are in thermal_step.cpp; its parts are put together in
-/// thermal_parts.cpp, reports are in thermal_report.cpp.
+/// Queries of a phase. Its steps are in thermal_step.cpp, its parts are made in thermal_parts.cpp, and
+/// reports are in thermal_report.cpp.
 #include "heat/thermal_phase.hpp"
 
 #include <algorithm>

@@ -167,7 +167,7 @@ class ThermalPhase {
   const mesh::Mesh& mesh() const;
   /// How states begin, and what they tell.
   const ThermalStates& states() const { return states_; }
-  /// What the phase consists of.
+  /// The parts of the phase.
   ThermalParts& parts() const { return *parts_; }
   /// Heat content of the nodes; with the open rule too, of bodies that store at Gauss points for what it says
   /// of fractions and volumes.

@@ -121,7 +121,7 @@ EntropyChange ThermalStates::entropy_change(const ThermalState& from, const Ther
       const double heat = from.enthalpy[as_size(i)], temperature = from.temperature[as_size(i)];
       const double before = parts_.storage->entropy(i, heat, temperature);
       const double after = parts_.storage->entropy(i, to.enthalpy[as_size(i)], to.temperature[as_size(i)]);
-      // What the iteration has left between heat and temperature of a node is counted as `behind`.
+      // The difference between heat and temperature of a node that the iteration has left counts as `behind`.
       const double behind = std::max(
           {0.0, parts_.storage->lower(i, temperature) - heat, heat - parts_.storage->upper(i, temperature)});
       add({after - before, std::abs(before), behind / temperature});

@@ -64,7 +64,7 @@ std::vector<double> group_times(std::vector<Births>& births, double interval) {
 
 void divide_by_birth(mesh::Mesh& mesh, std::vector<Births>& births, double interval) {
   const std::vector<double> times = group_times(births, interval);
-  // Of an element the number of its group: zero from the start, then the times, last what is never born.
+  // Each element gets the number of its group: zero from the start, then the times, last those never born.
   const std::size_t never = times.size() + 1;
   const auto group = [&](double birth) {
     if (birth <= 0) return std::size_t{0};

@@ -16,7 +16,7 @@ namespace solidus::mechanics {
 
 namespace {
 
-/// Of the residual: only what is shown depends on it.
+/// Tolerance of the residual; only displayed values depend on it.
 constexpr double k_tolerance = 1e-10;
 constexpr double k_some_temperature = 300;  ///< the elastic material has no table of it [K]
 
@@ -97,7 +97,7 @@ void follow_plane_faces(const MechanicalBodies& bodies, std::vector<char>& fresh
 void extend_displacement(const MechanicalBodies& bodies, const linear::ActiveSet& before,
                          const std::vector<char>& born, double time, std::vector<double>& displacement) {
   const auto n = as_size(bodies.components);
-  // What is new and free is unknown; what supports prescribe is known, as are the nodes of before.
+  // New free nodes are unknown; prescribed displacements and those of older nodes are known.
   std::vector<double> u = displacement, prescribed = displacement;
   bodies.loads->prescribe(time, prescribed);
   std::vector<char> fresh(u.size(), 0);

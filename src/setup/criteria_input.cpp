@@ -74,7 +74,7 @@ std::vector<double> walled_skins(const cases::CaseSpec& spec, const mesh::Mesh& 
     throw InputError(spec.feeding.where, "feeding.wall_movement: nothing that is cast has graphite",
                      "an iron whose card has [graphite], or no wall_movement");
   for (const cases::ContactSpec& contact : spec.contacts) {
-    // Of the two sides of a contact that of the casting counts, where the other one is a wall.
+    // The side of the casting counts where the other side of the contact is a wall.
     std::array<SurfaceMeasures, 2> sides;
     for (std::size_t side = 0; side < 2; ++side)
       sides[side] = measure_surface(mesh, contact.sides()[side], spec.analysis.kind);
@@ -293,8 +293,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
   // case.
   const std::vector<char> followed = followed_bodies(spec, materials, start);
   if (spec.feeding.moves_heat) check_one_alloy(spec, followed);
-  // What a body that grows is fed from changes with it, which feeding and gas do not follow; nor do the
-  // criteria of strain follow elements that come.
+  // The melt that can feed a growing body changes with it, which feeding and gas do not follow; the criteria
+  // of strain do not follow new elements either.
   const bool whole = spec.depositions.empty();
   const criteria::CriterionContext context{
       .mesh = mesh,

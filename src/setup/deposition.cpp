@@ -217,7 +217,7 @@ double interval_of(const cases::CaseSpec& spec) {
 
 namespace {
 
-/// What bodies that grow cannot do together with stress.
+/// Refuses options that are not available for growing bodies with stress.
 void check_mechanics(const cases::CaseSpec& spec, const cases::DepositionSpec& d) {
   if (spec.simultaneous())
     refuse(d, "grows, which the simultaneous scheme cannot yet",

@@ -71,7 +71,7 @@ std::string films() {
   return text;
 }
 
-/// Of the lower side, positive where the ends rise, by second differences.
+/// Curvature of the lower side by second differences, positive where the ends rise.
 double curvature(const CaseRun& run, double time) {
   const auto v = [&](const char* name) { return solidus::testing::at(run.history, name, time); };
   return (v("v32[m]") - 2 * v("v48[m]") + v("v64[m]")) / std::pow(0.016, 2);
@@ -88,7 +88,7 @@ double curvature_of_layers(int layers, int rows_of_layer) {
     const double height = k_base + k * k_layer, middle = height / 2, inertia = std::pow(height, 3) / 12;
     const double row = k_layer / rows_of_layer, foot = height - k_layer;
     const double all = k_layer * (foot + k_layer / 2 - middle);
-    // Of η/4 − η²/4 over the row the mean is −1/12, and that of its product with η is 1/12.
+    // Over the row the mean of η/4 − η²/4 is −1/12, and that of its product with η is 1/12.
     const double lowest = row * (-(foot + row / 2 - middle) / 12 + row / 2 / 12);
     total += k_expansion * k_rise * (all + (k == 1 ? 2 : 1) * lowest) / inertia;
   }

@@ -88,6 +88,8 @@ class NewCase(ProgramTest):
         case = tomllib.loads((self.folder / "case/case.toml").read_text())
         roles = {body.get("group", body["name"]): body["role"] for body in case["body"]}
         self.assertEqual(roles, {"valve_body": "casting", "core": "core", "mould": "mould"})
+        # Without friction nothing holds a casting that has left its walls.
+        self.assertEqual([law["friction"]["coefficient"] for law in case["interface"]], [0.3] * len(case["interface"]))
         self.assertRegex(text, r"casting +valve_body of brass, \d+ degC, 9\d\.\d cm3 in a box of 100 x 5\d(\.\d+)? x 71(\.\d+)? mm")
         self.numbered_faces("case", "valve_body")
 

@@ -12,7 +12,7 @@
 
 namespace solidus::contact {
 
-/// What passes at one contact point, and what follows from it.
+/// The heat that passes at one contact point, with its derivatives.
 struct HeatAtPoint {
   Index point = 0;
   std::span<const Index> nodes;

@@ -1,5 +1,5 @@
-/// What the points of an interface pass, store and conduct at given temperatures: for results, for the
-/// balance of a step, and for gaps other than those they are placed at. Functions of the points alone.
+/// Heat that the points of an interface conduct, store and pass on at given temperatures: for results, for
+/// the balance of a step, and for other gaps than those of the points. Functions of the points alone.
 #pragma once
 
 #include <array>

@@ -62,7 +62,7 @@ class HeatPoints {
   /// As linear::Contribution::limit_exchange.
   void limit_exchange(std::span<const char> nodes);
 
-  /// What passes at a point that has a partner.
+  /// Returns the heat that passes at a point that has a partner.
   HeatAtPoint see(Index point, std::span<const double> temperature) const;
   /// h at the plane gap that resists as a gap of the point does, and its slope in the gap itself.
   Conductance conductance(Index point, double penetration, double pressure, double temperature) const;

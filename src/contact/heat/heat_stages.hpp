@@ -16,7 +16,7 @@ struct HeatSpan {
   bool adiabatic = false;  ///< nothing flows: the dissipation alone is a term
 };
 
-/// What a second stage starts from, [point].
+/// The results of the first stage that the second one starts from, [point].
 struct FirstStage {
   std::vector<double> temperature;  ///< Θ_c that the second stage starts from
   std::vector<double> flux;         ///< heat that the first one took from the bodies [J/m²]
@@ -37,9 +37,9 @@ class HeatStages {
   /// The stage of the phase that begins.
   /// @param first  of a second stage; absent: the first one
   void begin_stage(double dt, std::optional<FirstStage> first);
-  /// Of the second stage; null otherwise.
+  /// The results of the first stage while the second one is computed; null otherwise.
   const FirstStage* first() const { return phase_ && phase_->first ? &*phase_->first : nullptr; }
-  /// What a point balances in the stage.
+  /// Returns the heat balance of a point over the stage.
   /// @param whole  the same over the whole of the phase
   InterfaceStep step(Index point, InterfaceStep whole) const;
   /// Heat of friction over the phase, found at the end of its last stage [J/m²].

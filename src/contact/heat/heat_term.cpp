@@ -1,4 +1,4 @@
-/// What every point says of its heat is added to the residual and the matrix of the thermal phase.
+/// The heat of every point is added to the residual and the matrix of the thermal phase.
 #include "contact/heat/heat_term.hpp"
 
 #include <cmath>

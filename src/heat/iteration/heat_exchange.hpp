@@ -8,8 +8,8 @@
 
 namespace solidus::heat {
 
-/// What depends on temperatures elsewhere is that of these: radiation between surfaces, the fluid of
-/// channels. Collective.
+/// Computes, from these temperatures, the loads that depend on temperatures elsewhere: radiation between
+/// surfaces and the fluid of channels. Collective.
 void begin_exchange(HeatParts& parts, std::span<const double> temperature);
 /// Ends an iteration of it (EnclosedSurfaces::follow, Channels::follow) after a HeatSystem::residual() at
 /// these temperatures: powers and entropy of that residual are with the new exchange then.

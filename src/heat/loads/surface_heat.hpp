@@ -26,7 +26,7 @@ struct SurfaceFlux {
   double slope = 0;  ///< dq/dΘ [W/(m² K)]
 };
 
-/// What a surface that sees others tells of itself, at the time set.
+/// Data of a surface that exchanges radiation with others, at the time set.
 struct EnclosedSide {
   double factor = 1;       ///< ε, or what a table of it is multiplied by
   double environment = 0;  ///< Θ_∞⁴ of the opening [K⁴]
@@ -48,7 +48,7 @@ class SurfaceLaw {
   explicit SurfaceLaw(const Radiation& radiation);
   /// Whether it differs from point to point.
   bool placed() const { return enclosed_ || !law_.uniform(); }
-  /// Of a surface on which what falls is told point by point (SurfaceHeat::irradiate); null of others.
+  /// Data of a surface whose irradiation is given point by point (SurfaceHeat::irradiate); null for others.
   const EnclosedSide* enclosed() const { return enclosed_ ? &*enclosed_ : nullptr; }
   bool has_values() const { return !now_.empty(); }
   /// The points that at() will be asked for; needed where it is placed.

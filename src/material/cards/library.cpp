@@ -214,7 +214,7 @@ void add_casting(Material& m, const MaterialData& data) {
   if (!casting.source.empty()) m.notes.push_back({"casting", casting.source, 0, 0});
 }
 
-// What the card gives of the properties that their users declare, with the note of each.
+// Adds the properties of the card that their users declare, with the note of each.
 void add_added(Material& m, const MaterialData& data) {
   for (const AddedProperty& property : added_properties())
     if (const auto given = data.added.find(std::string(property.key)); given != data.added.end()) {

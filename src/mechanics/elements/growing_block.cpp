@@ -184,7 +184,7 @@ void GrowingBlock::add_tangent(std::span<const double> u, linear::BlockMatrix& m
 
 BlockWork GrowingBlock::finish(std::span<const double> old_u, std::span<const double> u,
                                const BlockEnd& end) {
-  // What is not there yet has a history of zeros and nothing to show.
+  // Elements that are not there yet have a history of zeros and no results.
   if (!there_) {
     std::ranges::fill(end.history.values, Lane(0.0));
     if (end.elements != nullptr) end.elements->reset();

@@ -80,7 +80,7 @@ std::optional<ValueAt> least_niyama(const mesh::Mesh& mesh, const std::vector<ch
   return least;
 }
 
-/// What a body has lost by feeding, where the run follows it. Collective.
+/// Returns the volume that a body has lost by feeding, where the run follows it. Collective.
 std::optional<Shrinkage> shrinkage_of(const coupling::Phases& phases, const mesh::Mesh& mesh, int body,
                                       const FieldSet& fields) {
   const FieldValues emptied(fields, criteria::fields::k_emptied.name),

@@ -52,8 +52,8 @@ struct Pores {
   std::optional<ErrorBand> error = {};  ///< of the share
 };
 
-/// What a body has lost by feeding with heat alone (criteria/feeding.hpp) [m³], in two dimensions per depth
-/// or revolution.
+/// Volumes that a body has lost by feeding with heat alone (criteria/feeding.hpp) [m³], in two dimensions per
+/// depth or revolution.
 struct Shrinkage {
   double volume = 0;             ///< of the body as poured
   double holes = 0;              ///< pipe, sinks and cavities

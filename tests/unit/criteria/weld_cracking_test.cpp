@@ -85,8 +85,8 @@ TEST_F(WeldCracking, WireHelps7075ByKouAlone) {
   EXPECT_GT(k_7075_wire.strain, k_7075.strain);
 }
 
-/// Of the pairs of what cracks earlier and what later those that a criterion, high where metal cracks, ranks
-/// as measured.
+/// Number of pairs of welds, one of which cracks earlier, that a criterion (high where metal cracks) ranks as
+/// measured.
 int ranked(const std::array<double, 4>& from_early_to_late) {
   int right = 0;
   for (std::size_t i = 0; i < from_early_to_late.size(); ++i)
