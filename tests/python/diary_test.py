@@ -10,7 +10,7 @@ class Diary(unittest.TestCase):
         self.assertEqual(diary.mistakes(), [])
 
     def test_dates_seeds_and_loads_are_found_also_across_lines(self):
-        for text in ("of 2026-11-23", "on 27\nNovember 2026", "in November 2026", "(seeds 100316 and 20563)", "Seed 550303", "load 3 to 5", "a load of 2",
+        for text in ("of 2026-11-23", "in random case 571326,", "cases 581269 and 540130", "on 27\nNovember 2026", "in November 2026", "(seeds 100316 and 20563)", "Seed 550303", "load 3 to 5", "a load of 2",
                      "on a busy machine", "beside other work", "(added later)"):
             self.assertEqual(len(diary.history(text)), 1, text)
 
