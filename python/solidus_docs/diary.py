@@ -12,7 +12,7 @@ from solidus_docs.links import CODE, ROOT, pages, text_of
 ELSEWHERE = ("docs/log/", "docs/releases/", "docs/reference/", "CHANGELOG.md")
 MONTHS = "January|February|March|April|May|June|July|August|September|October|November|December"
 HISTORY = re.compile(rf"""\b20\d\d-\d\d-\d\d\b|\b\d{{1,2}}\ (?:{MONTHS})\b|\b(?:{MONTHS})\ 20\d\d\b  # a day, a month
-    |\b[Ss]eeds?\ \d|\b[Cc]ases?\ \d{5,6}\b|\b\d{5,6}(?:,|\ and)\ \d{5,6}\b   # of random cases
+    |\b[Ss]eeds?\ \d|\b[Cc]ases?\ \d{{5,6}}\b|\b\d{{5,6}}(?:,|\ and)\ \d{{5,6}}\b   # of random cases
     |\b[Ll]oads?\ (?:of\ )?\d+(?:\ to\ \d+)?\b(?!\ ?(?:%|[kM]?N\b|[kMG]?Pa\b))  # of a machine, not of a body
     |\b(?:busy|busier|idle|quieter)\ machine|\bbeside\ (?:much\ )?other\ work|\bother\ work\ beside
     |\b(?:added|measured)\ later\)""", re.X)
