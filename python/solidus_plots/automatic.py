@@ -135,7 +135,7 @@ def plan(run, times, summary, history, results, wishes):
         title="Feeding zones: pools of melt that fed a place last", quantity="Pool", above=0, timeless=True, contours=0)
     for field in fields.known():
         if field.group == "criteria" and field.pictured and field.name not in considered and field.name in written:
-            _add_criterion(field, grid, mask, add)
+            _add_criterion(field, run, grid, cast, add)
     if kind != "plane_strain" and kind != "plane_stress" and any(values[mask_of].any() for values, mask_of in _holes(grid, mask)):
         sheets.append({"file": "overview_xray", "kind": "xray", "times": [last], "bodies": cast, "title": "As on a radiograph", "telling": 2})
     return case, sheets
@@ -147,13 +147,18 @@ def _holes(grid, mask):
     return (at_nodes, nodes_of(grid, mask)), (of_cells, mask)
 
 
-def _add_criterion(field, grid, mask, add):
-    """A sheet of a criterion that has no particular one, where it says something of the castings."""
-    at_nodes = field.name in grid.point_data
-    values = grid.point_data[field.name] if at_nodes else grid.cell_data[field.name][mask]
-    if np.isfinite(field.with_value(values)).any() and np.any(values):
-        add(field.name, title=field.label, unit=field.shown, timeless=True, **({} if field.no_value != 0 else {"above": 0}),
-            **_beyond(field))
+def _add_criterion(field, run, grid, cast, add):
+    """A sheet of a criterion that has no particular one, of the castings; where it has no value there, as the life of a die, of
+    the other bodies that have one."""
+    def has_values(bodies):
+        mask = run.body_mask(grid, bodies)
+        values = grid.point_data[field.name][nodes_of(grid, mask)] if field.name in grid.point_data else grid.cell_data[field.name][mask]
+        return np.isfinite(field.with_value(values)).any() and np.any(values)
+
+    bodies = cast if has_values(cast) else [name for name in run.bodies if has_values([name])]
+    if bodies:  # cuts go through the hot spot of the castings, which other bodies need not meet
+        add(field.name, title=field.label, unit=field.shown, bodies=bodies, timeless=True, **({} if bodies == cast else {"skin_alone": True}),
+            **({} if field.no_value != 0 else {"above": 0}), **_beyond(field))
 
 
 def _beyond(field):

@@ -60,7 +60,8 @@ class Moments:
 
 def values(grid, spec, cells=None):
     """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array; nan
-    where they are not `above` or `below` what it says. `smooth`: values of the cells of a mask averaged at their nodes."""
+    where the field has no value (a negative mark) or they are not `above` or `below` what the picture says. `smooth`: values
+    of the cells of a mask averaged at their nodes."""
     name, component = spec["field"], spec.get("component")
     for kind in ("point_data", "cell_data"):
         if name in getattr(grid, kind):
@@ -70,6 +71,9 @@ def values(grid, spec, cells=None):
                     raise ResultError(f"plots.toml: field '{name}' has the components 0 to "
                                       f"{found.shape[1] - 1}, not {component}")
                 found = np.linalg.norm(found, axis=1) if component is None else found[:, component]
+            declared = fields.find(name)
+            if declared is not None and declared.no_value is not None and declared.no_value < 0:
+                found = declared.with_value(found)
             if spec.get("smooth", False) and kind == "cell_data":
                 kind, found = "point_data", _at_nodes(grid, found, cells)
             found = style.convert(found, _written_unit(grid, name), unit(grid, spec))

@@ -8,7 +8,7 @@ from blocks import box, everything
 import matplotlib.pyplot as plt
 import numpy as np
 
-from solidus_plots import automatic, hot_spots, overview, style
+from solidus_plots import automatic, hot_spots, moments, overview, style
 from solidus_plots.cells import HEX
 from solidus_plots.curves import _give_height, _panels, unit_groups
 from solidus_plots.history import Table
@@ -75,6 +75,36 @@ class Sheets(unittest.TestCase):
         for sheet in sheets:
             file, = overview.draw(sheet, run, case, self.folder)
             self.assertGreater(file.stat().st_size, 5_000, file)
+
+    def test_marks_of_places_without_a_value_are_not_drawn_as_numbers(self):
+        grid = frozen(box(HEX, SIZE, (8, 4, 4)))
+        right = grid.points[:, 0] > 0.021
+        grid.point_data["hardness"] = np.where(right, 150.0 + 1e3 * grid.points[:, 0], -1.0)
+        grid.units["hardness"] = "1"
+        kind, values = moments.values(grid, {"field": "hardness", "unit": "1"})
+        self.assertEqual(kind, "point_data")
+        np.testing.assert_array_equal(np.isfinite(values), right)
+        self.assertGreater(np.nanmin(values), 150)
+        self.assertIn("least 175", overview._extremes(grid, everything(grid), {"field": "hardness", "unit": "1"}, "xyz"))
+
+    def test_criteria_of_a_die_are_drawn_of_the_die(self):
+        grid = frozen(box(HEX, SIZE, (8, 4, 4)))
+        cells = len(grid.cell_types)
+        grid.cell_data["body"] = np.arange(cells) // (cells // 2)
+        die = np.zeros(len(grid.points), bool)
+        die[moments.nodes_of(grid, grid.cell_data["body"] == 1)] = True
+        casting = np.zeros(len(grid.points), bool)
+        casting[moments.nodes_of(grid, grid.cell_data["body"] == 0)] = True
+        grid.point_data["shots_until_crack"] = np.where(die & ~casting, 1e4, -1.0)
+        grid.units["shots_until_crack"] = "1"
+        run = Moments(np.array([0.0]), [None], ["part", "die"])
+        run._grids[0] = grid
+        summary = {"answers": {"castings": {"part": {}}}}
+        history = {"time[s]": np.array([0.0]), "solid_fraction[1]": np.array([1.0])}
+        case, sheets = automatic.plan(run, np.array([0.0]), summary, history, self.folder, {})
+        life, = (sheet for sheet in sheets if sheet["field"] == "shots_until_crack")
+        self.assertEqual(life["bodies"], ["die"])
+        overview.draw(life, run, case, self.folder)
 
     def test_castings_that_have_left_are_shown_as_they_were_before(self):
         names, times = ["part", "die"], np.arange(6.0)  # poured at 0 and 3; away at 2 and 5
