@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "results/formats/pvd.hpp"
 #include "system/errors.hpp"
 #include "system/processes.hpp"
 
@@ -36,9 +37,9 @@ void add_export_format(const ExportFormat& format) {
 
 std::filesystem::path collection_of(const ExportRequest& request) {
   if (processes::count() > 1) throw InputError({}, "the export works on one process", "without mpirun");
-  const std::filesystem::path collection = request.folder / "fields.pvd";
+  const std::filesystem::path collection = request.folder / results::k_collection;
   if (!std::filesystem::exists(collection))
-    throw InputError({request.folder.string()}, "the folder has no fields.pvd",
+    throw InputError({request.folder.string()}, "the folder has no " + std::string(results::k_collection),
                      "the folder of a run's results");
   return collection;
 }

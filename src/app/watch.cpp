@@ -15,11 +15,14 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "numbers/index_casts.hpp"
+#include "results/formats/pvd.hpp"
 #include "results/report/report_page.hpp"
 #include "system/errors.hpp"
 
@@ -225,7 +228,8 @@ bool Watch::begun() const {
 std::string Watch::stamp() const {
   std::error_code error;
   std::string out;
-  for (const char* name : {"history.csv", "fields.pvd", "summary.json"}) {
+  for (const std::string_view name :
+       std::initializer_list<std::string_view>{"history.csv", results::k_collection, "summary.json"}) {
     const auto size = fs::file_size(folder_ / name, error);
     out += fmt::format("{}-", error ? 0 : size);
   }

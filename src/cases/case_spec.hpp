@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -371,8 +372,8 @@ struct OutputSpec {
   std::vector<std::string> fields;
   std::optional<int> checkpoint_every;  ///< steps
   std::optional<std::string> folder;
-  bool stage_ends = true;                                  ///< outputs at the end of every stage
-  bool vtkhdf = false;                                     ///< fields.vtkhdf too, when the run ends or stops
+  bool stage_ends = true;               ///< outputs at the end of every stage
+  std::map<std::string, bool> formats;  ///< of fields, by their keys (results/output/field_format.hpp)
   std::string length_unit, temperature_unit, stress_unit;  ///< of the printed answers
   SourceLocation where;
 };

@@ -1,6 +1,7 @@
 /// Keys of [output], probes and profiles.
 #include "cases/case_keys.hpp"
 #include "coupling/all_fields.hpp"
+#include "results/output/field_format.hpp"
 
 namespace solidus::cases {
 
@@ -106,12 +107,9 @@ Section<OutputSpec> output_keys() {
       .initially(Value::list())
       .choices(coupling::field_names(false))
       .doc("The fields to write; empty: all except those that are written on request only.");
-  s.key("vtkhdf", &OutputSpec::vtkhdf)
-      .initially(false)
-      .doc(
-          "All fields of the run in one file fields.vtkhdf too, for ParaView 5.12 or newer; written when the "
-          "run "
-          "ends or stops.");
+  for (const results::FieldFormat& format : results::field_formats())
+    if (!format.doc.empty())
+      s.key(std::string(format.name), &OutputSpec::formats).initially(false).doc(std::string(format.doc));
   s.key("checkpoint_every", &OutputSpec::checkpoint_every)
       .at_least(1)
       .doc(

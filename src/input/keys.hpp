@@ -120,6 +120,8 @@ struct SectionInfo {
   std::string name, doc;
   std::deque<Key> keys;  // a deque: references to its elements stay valid
   const Key* find(std::string_view key) const;
+  /// Throws std::logic_error where the section has the key.
+  void check_new(const std::string& key) const;
   /// The table with all defaults filled in, sub-sections included.
   /// Throws InputError for unknown, missing and misplaced keys.
   /// @param path the section as a user names it, "[mesh.parameters]"; for messages
@@ -221,6 +223,13 @@ class Section {
   template <class M>
   Key& key(std::string name, M T::*member) {
     return bind(std::move(name), member, keys::kind_of<M>());
+  }
+  /// A truth value into a map, by its name.
+  Key& key(const std::string& name, std::map<std::string, bool> T::*member) {
+    Key& key = add(name, Key::Kind::boolean);
+    assign_.push_back(
+        [&key, member, name](T& out, const Value& in) { keys::read(in, key, (out.*member)[name]); });
+    return key;
   }
   /// A number with a unit, or a list of them; `unit` is SI.
   template <class M>
@@ -339,7 +348,9 @@ class Section {
   std::shared_ptr<const SectionInfo> shared_info() const { return info_; }
 
  private:
+  /// Throws std::logic_error where the section has the key already.
   Key& add(std::string name, Key::Kind kind) {
+    info_->check_new(name);
     Key& key = info_->keys.emplace_back();
     key.name = std::move(name);
     key.kind = kind;

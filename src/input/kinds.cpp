@@ -32,6 +32,10 @@ void check_kind(const std::string& family, const std::string& name, const Sectio
       refuse(fmt::format("'{}' declares the key '{}' otherwise", other_name, key.name));
 }
 
+void SectionInfo::check_new(const std::string& key) const {
+  if (find(key) != nullptr) throw std::logic_error("[" + name + "] has the key '" + key + "' twice");
+}
+
 void SectionInfo::add_kind(const std::string& chosen_by, const std::string& kind,
                            const SectionInfo& of_kind) {
   for (const Key& key : of_kind.keys) {

@@ -10,7 +10,6 @@
 #include "criteria/quantities.hpp"
 #include "heat/thermal_parts.hpp"
 #include "results/answers/stress_jump.hpp"
-#include "results/formats/vtkhdf.hpp"
 #include "results/output/output_error.hpp"
 #include "system/log.hpp"
 #include "system/processes.hpp"
@@ -115,8 +114,8 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       fields_(mesh, phases, options_.kind),
       probes_(mesh, options_.kind, options_.probes, fields_.bodies(), global_readings(phases, options_)),
       globals_(global_columns(phases, options_, probes_.columns())),
-      output_(options_.continue_from ? FieldOutput(folder, mesh, options_.continue_from->state.time)
-                                     : FieldOutput(folder, mesh)),
+      output_(folder, mesh, options_.formats,
+              options_.continue_from ? std::optional(options_.continue_from->state.time) : std::nullopt),
       checkpoints_(folder.root()),
       criteria_probed_(samples_criteria(phases, options_.probes)) {
   seconds_.began = processes::wall_time();
@@ -339,8 +338,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
   }
   // Before the summary, which says that the run is finished.
-  if (options_.vtkhdf && output_.written() > 0)
-    on_first_process([&] { write_vtkhdf(folder_.collection(), folder_.root() / "fields.vtkhdf"); });
+  output_.end();
   write_summary_file(outcome, state);
   if (progress_ && s.answers)
     *options_.progress << text(*s.answers, s.criteria, options_.units) << std::flush;

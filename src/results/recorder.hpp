@@ -31,7 +31,7 @@ struct RecorderOptions {
   std::vector<Probe> probes;
   std::vector<Profile> profiles;
   std::vector<std::string> fields;   ///< to write; empty: all
-  bool vtkhdf = false;               ///< gather them in fields.vtkhdf when the run ends or stops
+  std::vector<std::string> formats;  ///< of field_formats(), which are written besides
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
   bool melting = true;                     ///< a material can melt

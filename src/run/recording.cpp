@@ -47,7 +47,8 @@ results::RecorderOptions recorder_options(const setup::Case& c, const RunOptions
   r.probes = setup::probes(spec);
   r.profiles = setup::profiles(spec);
   r.fields = spec.output.fields;
-  r.vtkhdf = spec.output.vtkhdf;
+  for (const auto& [format, asked_for] : spec.output.formats)
+    if (asked_for) r.formats.push_back(format);
   for (const cases::ChannelSpec& channel : spec.channels) r.channels.push_back(channel.name);
   for (const cases::SourceSpec& source : spec.sources) r.sources.push_back(source.name);
   r.stages = !spec.stages.empty();

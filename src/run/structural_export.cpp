@@ -13,6 +13,7 @@
 #include "numbers/index_casts.hpp"
 #include "results/checkpoint/checkpoint.hpp"
 #include "results/formats/deck_supports.hpp"
+#include "results/formats/pvd.hpp"
 #include "results/formats/temperature_history.hpp"
 #include "results/output/output_file.hpp"
 #include "setup/assembly.hpp"
@@ -183,7 +184,7 @@ ExportReport export_history(const cases::CaseSpec& spec, const setup::Assembly& 
       .constraints = tied_entries(a.mechanics->system().matrix().constraints(),
                                   a.mechanics->system().matrix().fixed().size()),
       .force = {},
-      .history = results::read_temperature_history(options.folder / "fields.pvd", a.mesh, active)};
+      .history = results::read_temperature_history(options.folder / results::k_collection, a.mesh, active)};
   for (const cases::BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   // What only contact held is given supports in the deck, and the report says how many.
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);

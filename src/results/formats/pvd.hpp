@@ -3,9 +3,13 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace solidus::results {
+
+/// The name of the collection in the folder of a run's results, which all that reads fields starts from.
+constexpr std::string_view k_collection = "fields.pvd";
 
 /// Rewritten whole and atomically after each addition, so that a run that is stopped or still going on can be
 /// opened. One process writes it.

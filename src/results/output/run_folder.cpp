@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "numbers/index_casts.hpp"
+#include "results/output/field_format.hpp"
 #include "results/output/output_file.hpp"
 #include "system/processes.hpp"
 
@@ -22,9 +21,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view k_marker = "# Written by Solidus: the case as it was run, all defaults filled in.";
-constexpr std::array<const char*, 9> k_files = {"history.csv", "steps.csv",     "pools.csv",
-                                                "feeding.csv", "shots.csv",     "summary.json",
-                                                "fields.pvd",  "fields.vtkhdf", "sensitivities.csv"};
+constexpr std::array<const char*, 7> k_tables = {
+    "history.csv", "steps.csv", "pools.csv", "feeding.csv", "shots.csv", "summary.json", "sensitivities.csv"};
+
+/// All files that a run may write directly in its folder, but for case.toml and the tables of profiles.
+std::vector<std::string> own_files() {
+  std::vector<std::string> names(k_tables.begin(), k_tables.end());
+  for (const FieldFormat& format : field_formats())
+    names.insert(names.end(), format.files.begin(), format.files.end());
+  return names;
+}
 
 bool written_by_us(const fs::path& case_file) {
   std::ifstream file(case_file);
@@ -57,8 +63,8 @@ void check_owner(const fs::path& root, const std::vector<std::string>& ours,
   };
   std::vector<std::string> names;
   if (!written_by_us(root / "case.toml")) {
-    names = {"case.toml"};
-    names.insert(names.end(), k_files.begin(), k_files.end());
+    names = own_files();
+    names.insert(names.begin(), "case.toml");
   }
   for (const std::string& table : tables)
     if (std::find(ours.begin(), ours.end(), table) == ours.end()) names.push_back(table);
@@ -68,32 +74,10 @@ void check_owner(const fs::path& root, const std::vector<std::string>& ours,
                         "choose another folder with -o, or move that file away");
 }
 
-/// Takes `end` off the end of a name, if it is there.
-bool strip(std::string_view& name, std::string_view end) {
-  if (!name.ends_with(end)) return false;
-  name.remove_suffix(end.size());
-  return true;
-}
-
-/// Takes a number of at least `least` digits off the end of a name.
-bool strip_number(std::string_view& name, std::size_t least) {
-  const auto last =
-      std::find_if_not(name.rbegin(), name.rend(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  const auto digits = as_size(last - name.rbegin());
-  if (digits < least) return false;
-  name.remove_suffix(digits);
-  return true;
-}
-
-/// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and files that an interrupted run left of
-/// them.
-bool is_field_file(std::string_view name) {
-  if (!strip(name, ".part")) strip(name, ".spool");
-  if (!strip(name, ".pvtu") && !strip(name, ".vtu")) return false;
-  std::string_view without_process = name;
-  if (strip_number(without_process, 1) && strip(without_process, "_p")) name = without_process;
-  return strip_number(name, 5) && strip(name, "_") &&
-         (name == "fields" || (name.starts_with("surface_") && name.size() > 8));
+bool is_field_file(const std::string& name) {
+  return std::ranges::any_of(field_formats(), [&](const FieldFormat& format) {
+    return format.is_field_file != nullptr && format.is_field_file(name);
+  });
 }
 
 /// A report of our own, by its second line: one that another program wrote stays.
@@ -108,7 +92,7 @@ bool is_report(const fs::path& file) {
 void remove_old(const fs::path& root, const std::vector<std::string>& tables) {
   for (const char* name : {"state.h5", "previous.h5", "state.h5.part"})
     fs::remove(root / "checkpoint" / name);
-  std::vector<std::string> names(k_files.begin(), k_files.end());
+  std::vector<std::string> names = own_files();
   names.insert(names.end(), tables.begin(), tables.end());
   for (const std::string& name : names) {
     if (!fs::is_symlink(root / name)) fs::remove(root / name);
@@ -142,7 +126,8 @@ bool is_finished(const fs::path& folder) {
 }
 
 bool RunFolder::is_taken(std::string_view file) {
-  return std::find(k_files.begin(), k_files.end(), file) != k_files.end();
+  const std::vector<std::string> names = own_files();
+  return std::ranges::find(names, file) != names.end();
 }
 
 RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool continued,

@@ -21,7 +21,8 @@ bool is_finished(const std::filesystem::path& folder);
 /// ```
 /// case.toml     the case, fully resolved; its first line says that Solidus wrote it
 /// history.csv   probes and globals     steps.csv  every step     summary.json  how it went
-/// fields.pvd    the fields over time   fields/    the field files   checkpoint/  to go on from
+/// fields/       of the formats of fields, which also have files here (field_format.hpp)
+/// checkpoint/   to go on from
 /// pools.csv     pools of melt, where something can freeze
 /// feeding.csv   where the metal that shrinks took its volume from, with heat alone
 /// sensitivities.csv  derivatives of probes, of a run with --sensitivities
@@ -38,7 +39,7 @@ class RunFolder {
   /// @param tables  names of further files that the run writes there
   RunFolder(std::filesystem::path root, std::string_view resolved_case, bool continued = false,
             std::span<const std::string> tables = {});
-  /// Whether the run itself writes a file of this name.
+  /// Whether a run itself may write a file of this name.
   static bool is_taken(std::string_view file);
 
   const std::filesystem::path& root() const { return root_; }
@@ -49,7 +50,6 @@ class RunFolder {
   std::filesystem::path shots() const { return root_ / "shots.csv"; }
   std::filesystem::path sensitivities() const { return root_ / "sensitivities.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
-  std::filesystem::path collection() const { return root_ / "fields.pvd"; }
   std::filesystem::path fields() const { return root_ / "fields"; }
 
  private:

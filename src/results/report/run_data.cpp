@@ -121,7 +121,7 @@ struct Collection {
 Collection collection(const fs::path& folder, std::vector<std::string>& notes) {
   Collection found;
   // A run may have left no fields; then the page has tables only.
-  const fs::path file = folder / "fields.pvd";
+  const fs::path file = folder / results::k_collection;
   if (!fs::exists(file)) return found;
   require_readable(file, {file.string(), 0, 0});
   std::vector<results::PvdCollection::Entry> entries;
@@ -317,10 +317,10 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
     throw InputError(where,
                      fs::exists(folder) ? "this is a file, no folder of results" : "there is no such folder",
                      allowed);
-  const auto there = [&](const char* name) { return fs::exists(folder / name); };
+  const auto there = [&](std::string_view name) { return fs::exists(folder / name); };
   if (!there("case.toml"))
     throw InputError(where, "the folder has no case.toml: it is none of results", allowed);
-  if (!there("history.csv") && !there("fields.pvd"))
+  if (!there("history.csv") && !there(results::k_collection))
     throw InputError(where, "the folder has no results: neither history.csv nor fields.pvd", allowed);
 
   const fs::path case_file = folder / "case.toml";

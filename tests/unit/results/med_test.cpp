@@ -12,6 +12,7 @@
 #include "mesh/making/parametric_meshes.hpp"
 #include "mesh/parts/distribute.hpp"
 #include "results/formats/field_output.hpp"
+#include "results/formats/pvd.hpp"
 #include "results/output/output_error.hpp"
 #include "sample.hpp"
 #include "system/errors.hpp"
@@ -76,7 +77,7 @@ TEST_P(Med, HoldsTheMeshInItsOwnNumberingAndTheFieldsOfAllTimes) {
   output.write(2.5, fields);
 
   const std::string path = (folder.path / "run.med").string();
-  const MedReport report = write_med(run.collection(), {"the part"}, path);
+  const MedReport report = write_med(run.root() / k_collection, {"the part"}, path);
   EXPECT_EQ(report.times, 2u);
   EXPECT_EQ(report.fields, 2u);
   EXPECT_EQ(report.points, mesh.x.size());
@@ -138,9 +139,10 @@ TEST_P(Med, HoldsTheMeshInItsOwnNumberingAndTheFieldsOfAllTimes) {
   EXPECT_EQ(group, "the part");
   MEDfileClose(file);
 
-  EXPECT_THROW(write_med(run.collection(), {"the part"}, folder.path / "no" / "folder.med"), OutputError);
+  EXPECT_THROW(write_med(run.root() / k_collection, {"the part"}, folder.path / "no" / "folder.med"),
+               OutputError);
   std::filesystem::remove(run.fields() / "fields_00001.vtu");
-  EXPECT_THROW(write_med(run.collection(), {"the part"}, folder.path / "none.med"), InputError);
+  EXPECT_THROW(write_med(run.root() / k_collection, {"the part"}, folder.path / "none.med"), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder.path / "none.med"));
 }
 
