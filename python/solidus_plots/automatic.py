@@ -11,6 +11,7 @@ from solidus_plots.moments import nodes_of
 from solidus_plots.overview import Case
 
 NIYAMA = 0.775  # sqrt(K s)/mm
+LIVES = 20  # of a die: the least one counts, and others are up to millions of times as long
 NIYAMA_REMARK = ("grey: at or above {:g} √(K s)/mm, the limit of Niyama et al. (1982) for steel, "
                  "1 °C^½ min^½/cm; other alloys have others ([automatic] niyama)")
 BEYOND = 0.3  # K
@@ -149,16 +150,28 @@ def _holes(grid, mask):
 
 def _add_criterion(field, run, grid, cast, add):
     """A sheet of a criterion that has no particular one, of the castings; where it has no value there, as the life of a die, of
-    the other bodies that have one."""
-    def has_values(bodies):
-        mask = run.body_mask(grid, bodies)
-        values = grid.point_data[field.name][nodes_of(grid, mask)] if field.name in grid.point_data else grid.cell_data[field.name][mask]
-        return np.isfinite(field.with_value(values)).any() and np.any(values)
+    the other bodies that have one, with cuts through its worst place."""
+    at_nodes = field.name in grid.point_data
+    values = field.with_value(grid.point_data[field.name] if at_nodes else grid.cell_data[field.name])
 
-    bodies = cast if has_values(cast) else [name for name in run.bodies if has_values([name])]
-    if bodies:  # cuts go through the hot spot of the castings, which other bodies need not meet
-        add(field.name, title=field.label, unit=field.shown, bodies=bodies, timeless=True, **({} if bodies == cast else {"skin_alone": True}),
-            **({} if field.no_value != 0 else {"above": 0}), **_beyond(field))
+    def places(bodies):
+        """Nodes or cells of the bodies that have a value; none where all are zero."""
+        mask = run.body_mask(grid, bodies)
+        chosen = nodes_of(grid, mask) if at_nodes else np.flatnonzero(mask)
+        found = chosen[np.isfinite(values[chosen])]
+        return found if np.any(values[found]) else found[:0]
+
+    spec = {"title": field.label, "unit": field.shown, "timeless": True, **({} if field.no_value != 0 else {"above": 0}), **_beyond(field)}
+    others = [name for name in run.bodies if name not in cast and len(places([name]))]
+    if len(places(cast)):
+        add(field.name, **spec)
+    elif others:
+        found = places(others)
+        worst = found[values[found].argmin() if field.worst == "least" else values[found].argmax()]
+        least = field.factor * values[worst]
+        if field.worst == "least" and 0 < LIVES * least < field.factor * values[found].max():
+            spec |= {"range": [0, LIVES * least], "remark": f"the colours end at {LIVES} times the least value"}
+        add(field.name, bodies=others, through=grid.points[worst] if at_nodes else hot_spots.centres(grid)[worst], **spec)
 
 
 def _beyond(field):

@@ -177,14 +177,21 @@ def _views(grids, run, spec, case):
     around = [_Skin("skin", grids, run, spec, Camera(-60, 25, case.up))]
     if spec.get("skin_alone"):
         return around + [_Skin("from behind and below", grids, run, spec, Camera(120, -25, case.up))]
-    planes = [(Plane.axis(axis, case.hottest["xyz".index(axis)]),
-               f"{axis} = {_number(MM * case.hottest['xyz'.index(axis)])} mm") for axis in "xyz"]
-    return around + [_Section(name, grids, run, spec, plane, False) for plane, name in planes]
+    through = spec.get("through", case.hottest)
+    for axis in "xyz":
+        place = through["xyz".index(axis)]
+        try:
+            around.append(_Section(f"{axis} = {_number(MM * place)} mm", grids, run, spec, Plane.axis(axis, place), False))
+        except ResultError:
+            if "through" not in spec:
+                raise
+            # A place on an outer face: by rounding the plane may miss the bodies there.
+    return around
 
 
 def draw(spec, run, case, folder):
-    """One sheet. `spec` is that of [[sections]], with `skin_alone`: no cuts; `hot_spots`: they are marked; `timeless`:
-    of the whole run; `remark`: a line below."""
+    """One sheet. `spec` is that of [[sections]], with `skin_alone`: no cuts; `through`: the point of the cuts [m], else the
+    hot spot; `hot_spots`: they are marked; `timeless`: of the whole run; `remark`: a line below."""
     grids = run.those_of(spec["times"])
     times = style.time_texts([grid.time for grid in grids])
     views = _views(grids, run, spec, case)
@@ -207,7 +214,7 @@ def draw(spec, run, case, folder):
         footer.append("hot spots: " + ";  ".join(f"{rank + 1}: {_number(spot.value)} s at {_place(spot.point, names)}"
                                                  for rank, spot in enumerate(case.spots)))
     elif case.solid and not spec.get("skin_alone"):
-        footer.append(f"+: {_place(case.hottest, names)}, through which the cuts go")
+        footer.append(f"+: {_place(spec.get('through', case.hottest), names)}, through which the cuts go")
     footer += [spec["remark"]] if "remark" in spec else []
     footer.append(case.corner)
     title = spec["title"] + (f", {times[0]}" if len(times) == 1 and not timeless else "")
@@ -215,7 +222,7 @@ def draw(spec, run, case, folder):
     least = 0.22 * max(view.size[0] for view in views)
     sheet = Sheet([[entry and (max(entry[0].size[0], least), entry[0].size[1]) for entry in row] for row in rows], title, 0.55, [0.62] * len(rows),
                   legend=colours.legend(), footer=footer)
-    marks = case if spec.get("hot_spots") else Case(case.corner, case.solid, case.names, case.hottest, [], case.up)
+    marks = case if spec.get("hot_spots") else Case(case.corner, case.solid, case.names, spec.get("through", case.hottest), [], case.up)
     for axes_row, row in zip(sheet.axes, rows):
         for axes, entry in zip(axes_row, row):
             if entry is None:

@@ -51,6 +51,9 @@ Value& pick(Value& list, const std::string& part, const std::string& path, const
   if (error == std::errc() && end == part.data() + part.size() && number >= 1 &&
       number <= list.items().size())
     return list.items()[number - 1];
+  // Sections without a name are picked by their number.
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i].empty()) names[i] = std::to_string(i + 1);
   throw InputError(where, fmt::format("there is no '{}' among the sections [[{}]]", part, path),
                    one_of(names, part));
 }

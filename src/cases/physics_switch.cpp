@@ -26,6 +26,18 @@ std::string text_of(const Value& table, std::string_view key) {
   return value != nullptr && value->is_text() ? value->text() : "";
 }
 
+/// An interface or contact by its name; one without a name by the bodies between which it is.
+std::string name_of(std::string_view kind, const Value& item) {
+  if (const std::string name = text_of(item, "name"); !name.empty())
+    return fmt::format("{} '{}'", kind, name);
+  const Value* bodies = item.find("bodies");
+  if (bodies == nullptr || !bodies->is_list()) return fmt::format("{} of all bodies", kind);
+  std::vector<std::string> names;
+  for (const Value& body : bodies->items())
+    if (body.is_text()) names.push_back(fmt::format("'{}'", body.text()));
+  return fmt::format("{} of {}", kind, fmt::join(names, " and "));
+}
+
 /// Removes sections from a document and notes their names.
 class Removal {
  public:
@@ -71,8 +83,7 @@ void take_out_of_contacts(Value& document, Removal& removal) {
     Value* list = document.find(kind);
     if (list == nullptr || !list->is_list()) continue;
     for (Value& item : list->items())
-      for (const char* key : {"friction", "wear", "interface"})
-        removal.key(item, key, fmt::format("{} '{}'", kind, text_of(item, "name")));
+      for (const char* key : {"friction", "wear", "interface"}) removal.key(item, key, name_of(kind, item));
   }
 }
 

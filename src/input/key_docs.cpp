@@ -327,6 +327,15 @@ void add_paths(const SectionInfo& section, const std::string& path, std::vector<
   }
 }
 
+/// "'a.key' or 'b.key'": keys of any section whose path ends with these words, at most six; else nothing.
+std::string paths_that_end_with(const SectionInfo& root, const std::string& words) {
+  std::vector<std::string> paths, found;
+  add_paths(root, "", paths);
+  for (const std::string& path : paths)
+    if (path.ends_with("." + words) && found.size() < 6) found.push_back("'" + path + "'");
+  return fmt::format("{}", fmt::join(found, " or "));
+}
+
 }  // namespace
 
 std::vector<std::string> key_paths(const SectionInfo& root) {
@@ -357,6 +366,11 @@ std::string explain(const SectionInfo& root, const std::string& path) {
     }
     const Key* next = info ? info->find(part) : nullptr;
     if (!next) {
+      // A key alone, without its section, is found by its last word.
+      if (walked.empty())
+        if (const std::string found = paths_that_end_with(root, path); !found.empty())
+          throw InputError({}, fmt::format("there is no key '{}' in the file", path),
+                           "did you mean " + found + "?");
       std::vector<std::string> names;
       if (info)
         for (const Key& k : info->keys) names.push_back(k.name);
@@ -378,6 +392,14 @@ std::string explain(const SectionInfo& root, const std::string& path) {
     explain_key(*key, walked, out);
   }
   return out;
+}
+
+std::string advice_on_missing(const Key& key) {
+  std::string advice = key.doc_text;
+  if (!key.when_key.empty())
+    advice += fmt::format("{}It is needed with {} = \"{}\".", advice.empty() ? "" : " ", key.when_key,
+                          fmt::join(key.when_values, "\" or \""));
+  return advice.empty() ? "" : fmt::format("{}: {}", key.name, advice);
 }
 
 std::string json_schema(const SectionInfo& root, const std::string& title) {

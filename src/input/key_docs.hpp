@@ -14,6 +14,9 @@ namespace solidus {
 /// exist.
 std::string explain(const SectionInfo& root, const std::string& path);
 
+/// For the message of a key that is missing: what it means, and with which value of another key it is needed.
+std::string advice_on_missing(const Key& key);
+
 /// Returns the JSON Schema (draft 7) of a file, for editors: types, choices, ranges, no unknown keys. Keys
 /// that are required carry it in their description only, because a variant file that includes another gives
 /// just a part of them.

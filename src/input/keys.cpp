@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "input/gone_keys.hpp"
+#include "input/key_docs.hpp"
 #include "input/place_spec.hpp"
 
 namespace solidus {
@@ -110,8 +111,7 @@ Argument argument_of(const Value& table, const Key& key) {
   const std::string text = text_of(table, "of", key);
   if (text.empty() && key.arguments.size() == 1) return key.arguments.front();
   if (text.empty())
-    throw InputError(table.where,
-                     fmt::format("the table '{}' does not say what it is a function of", key.name),
+    throw InputError(table.where, fmt::format("the table '{}' does not name its argument", key.name),
                      "add of = \"...\", " + one_of(names));
   const auto found = std::find(names.begin(), names.end(), text);
   if (found == names.end())
@@ -436,7 +436,7 @@ Value SectionInfo::completed(const Value& table, const std::string& path) const 
       result.set(key.name, completed_key(*value, key, path));
     else if (key.required)
       throw InputError(table.where, fmt::format("the key '{}' is missing in {}", key.name, section),
-                       key.doc_text.empty() ? "" : fmt::format("{}: {}", key.name, key.doc_text));
+                       advice_on_missing(key));
     else if (key.initial) {
       Value initial = *key.initial;
       if (initial.where.file.empty())

@@ -146,6 +146,12 @@ Quantity split_quantity(std::string_view text) {
   if (error != std::errc{} || !std::isfinite(quantity.value))
     throw std::invalid_argument("'" + std::string(text) + "' does not begin with a finite number");
   rest.remove_prefix(as_size(end - rest.data()));
+  // A comma with digits behind it is the decimal mark of many countries, and no unit.
+  if (rest.size() > 1 && rest.front() == ',' && rest[1] >= '0' && rest[1] <= '9') {
+    std::string meant(text);
+    meant[meant.find(',')] = '.';
+    throw std::invalid_argument(fmt::format("'{}' has a comma; write a decimal point: '{}'", text, meant));
+  }
   // What follows the number is the unit, without blanks around it.
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   quantity.unit = rest.substr(0, rest.find_last_not_of(" \t") + 1);

@@ -132,8 +132,9 @@ std::string gravity(const mesh::Point& g) {
 
 std::string pour_lines(const PourOverview& p) {
   std::string text =
-      fmt::format("\n  poured      {}: at {:.0f} degC, {:.0f} K above its liquidus of {:.0f} degC", p.body,
-                  celsius(p.pouring), p.pouring - p.liquidus, celsius(p.liquidus));
+      fmt::format("\n  poured      {}: at {:.0f} degC, {:.0f} K {} its liquidus of {:.0f} degC", p.body,
+                  celsius(p.pouring), std::abs(p.pouring - p.liquidus),
+                  p.pouring < p.liquidus ? "below" : "above", celsius(p.liquidus));
   // When it freezes and what governs that, then the numbers behind the estimate.
   if (!p.no_estimate.empty()) return text + "\n  freezes     " + p.body + ": no estimate, " + p.no_estimate;
   // A time with its rule, or that it never freezes.

@@ -171,8 +171,9 @@ criteria::FatigueLaw fatigue_law(const cases::CaseSpec& spec, const cases::DieLi
   logging::info("life of '{}': thermal fatigue by {}{}; range of strain {}", body.name,
                 d.law == cases::DieLifeSpec::Law::table ? "a table" : "Coffin, Manson and Basquin",
                 d.source.empty() ? ", constants without a source" : ", constants of " + d.source,
-                law.deforms ? "of its deformation, between its hottest and its coldest moment"
-                            : "of a skin that is held completely: an upper bound, so that it lives longer");
+                law.deforms
+                    ? "of its deformation, between its hottest and its coldest moment"
+                    : "of a fully restrained surface, an upper bound: the computed life is too short");
   return law;
 }
 

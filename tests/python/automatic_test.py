@@ -95,7 +95,7 @@ class Sheets(unittest.TestCase):
         die[moments.nodes_of(grid, grid.cell_data["body"] == 1)] = True
         casting = np.zeros(len(grid.points), bool)
         casting[moments.nodes_of(grid, grid.cell_data["body"] == 0)] = True
-        grid.point_data["shots_until_crack"] = np.where(die & ~casting, 1e4, -1.0)
+        grid.point_data["shots_until_crack"] = np.where(die & ~casting, np.where(grid.points[:, 1] > 0.011, 1e8, 1e4), -1.0)
         grid.units["shots_until_crack"] = "1"
         run = Moments(np.array([0.0]), [None], ["part", "die"])
         run._grids[0] = grid
@@ -104,7 +104,12 @@ class Sheets(unittest.TestCase):
         case, sheets = automatic.plan(run, np.array([0.0]), summary, history, self.folder, {})
         life, = (sheet for sheet in sheets if sheet["field"] == "shots_until_crack")
         self.assertEqual(life["bodies"], ["die"])
+        self.assertEqual(life["range"], [0, 2e5])  # lives of a hundred million shots say nothing
+        self.assertIn(np.flatnonzero((grid.points == life["through"]).all(axis=1))[0], np.flatnonzero(die & ~casting))
         overview.draw(life, run, case, self.folder)
+        corner = {**life, "through": grid.points[die].min(axis=0) - 1e-3}  # planes that miss the die are left out
+        self.assertEqual(len(overview._views([grid], run, corner, case)), 1)
+        overview.draw(corner, run, case, self.folder)
 
     def test_castings_that_have_left_are_shown_as_they_were_before(self):
         names, times = ["part", "die"], np.arange(6.0)  # poured at 0 and 3; away at 2 and 5

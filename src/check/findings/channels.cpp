@@ -25,7 +25,7 @@ constexpr double k_much = 10;       // by which the fluid warms up [K]
 constexpr double k_wall = 0.5;      // of the diameter: metal between the channel and the skin
 
 std::string at(const Position& x) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x[0], x[1], x[2]);
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]);
 }
 
 /// One channel of a case in its mesh.

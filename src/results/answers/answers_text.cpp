@@ -135,7 +135,7 @@ std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& forma
   std::string text =
       line("the die is periodic",
            last.periodic ? fmt::format("after {}: within {} from shot to shot", n, format.change(last.change))
-                         : fmt::format("not to see after {}: it changed by up to {} in the last", n,
+                         : fmt::format("not yet: after {} it changed by up to {} in the last", n,
                                        format.change(last.change)));
   // Casting first, then the die when a shot begins, in the mean and at its hottest place.
   text += line("time to solidify", both(solid(shots.front()), solid(shots.back())));

@@ -220,6 +220,21 @@ fields = ["temperature", "stress"]
   EXPECT_FALSE(spec.contacts[0].friction);
 }
 
+TEST(PhysicsSwitch, InterfacesWithoutANameAreCalledByTheirBodies) {
+  Value document = parse_document(R"([[interface]]
+bodies = ["casting", "die"]
+[interface.friction]
+coefficient = 0.3
+[[interface]]
+bodies = "all"
+[interface.friction]
+coefficient = 0.3
+)",
+                                  "case.toml");
+  EXPECT_EQ(switch_physics(document, Physics::heat),
+            "friction of interface of 'casting' and 'die'; friction of interface of all bodies");
+}
+
 TEST(PhysicsSwitch, MakesACaseOfHeatACoupledOne) {
   Value document = parse_document(k_case, "case.toml");
   EXPECT_EQ(switch_physics(document, Physics::heat), "");

@@ -238,6 +238,41 @@ TEST_F(FindingsTest, FurtherSlipsOfConditionsAreNamed) {
         << slip.with;
 }
 
+TEST_F(FindingsTest, AJetOnASurfaceMuchLargerThanItsCircleIsNamed) {
+  const std::string block = R"(title = "A block of steel under a jet"
+[analysis]
+kind = "solid"
+physics = "heat"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["SIDE", "SIDE", "20 mm"]
+divisions = [4, 4, 2]
+[time]
+end = "10 s"
+step = "1 s"
+[[body]]
+name = "block"
+material = "steel_mould"
+initial_temperature = "200 degC"
+[[jet]]
+name = "nozzle"
+group = "z_max"
+nozzle = "4 mm"
+distance = "20 mm"
+radius = "15 mm"
+flow = "3 l/min"
+inlet_temperature = "30 degC"
+)";
+  const auto of_side = [&](const std::string& side) {
+    return changed(changed(block, "SIDE", side), "SIDE", side);
+  };
+  EXPECT_THAT(said_of(of_side("100 mm")),
+              Contains(HasSubstr("cools a circle of 7.07 cm2, and 'z_max' has 100 cm2")));
+  EXPECT_THAT(said_of(of_side("30 mm")), Not(Contains(HasSubstr("cools a circle"))));
+}
+
 TEST_F(FindingsTest, ARiserThatIsABodyOfItsOwnIsBelowOrAboveWhatIsPouredWithIt) {
   const std::string poured = changed(k_casting, "\"steel_mould\"\ninitial_temperature = \"200 degC\"",
                                      "\"aluminium_alsi7mg\"\ninitial_temperature = \"700 degC\"");

@@ -53,6 +53,15 @@ TEST(KeyDocs, ExplainOfAnUnknownPathNamesTheNearest) {
   }
 }
 
+TEST(KeyDocs, AKeyWithoutItsSectionIsFoundByItsLastWord) {
+  try {
+    explain(declaration().info(), "latent_heat");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'change.NAME.latent_heat'?"));
+  }
+}
+
 TEST(KeyDocs, TheSchemaListsEveryKeyAndNoOther) {
   const std::string schema = json_schema(declaration().info(), "sample");
   EXPECT_THAT(schema,

@@ -126,7 +126,7 @@ TEST(Units, WhatIsNoQuantityIsRefusedWithItsText) {
   EXPECT_THAT(complaint([] { units::parse_quantity("1 500 K", "K"); }),
               HasSubstr("'1 500 K' holds two numbers"));
   EXPECT_THAT(complaint([] { units::parse_quantity("1,5 mm", "m"); }),
-              HasSubstr("',5 mm' is not a known unit"));
+              HasSubstr("'1,5 mm' has a comma; write a decimal point: '1.5 mm'"));
   EXPECT_THAT(complaint([] { units::parse_quantity("1e308 GPa", "Pa"); }), HasSubstr("too large"));
 }
 

@@ -181,18 +181,18 @@ export function buildHead(page: Page, bench: Workbench): void {
   }
 }
 
-/** "2 rejected, 1 shortened": tries that were repeated with a smaller step, those that ended after heat alone apart. */
+/** "2 rejected, 1 shortened": attempts that were repeated with a smaller step, those that ended after heat alone apart. */
 export function triesText(rejected = 0, shortened = 0): string {
   return [rejected > 0 ? `${rejected} rejected` : "", shortened > 0 ? `${shortened} shortened` : ""].filter(Boolean).join(", ");
 }
 
-/** What it took, and how well the first law held. */
+/** Steps, computing time and how well energy was conserved. */
 function computed(run: Run): string {
   const s = run.summary, total = s["profile[s]"]?.total ?? s.seconds?.run, defect = s.relative_energy_defect;
   return [
     s.steps !== undefined ? `${s.steps} steps${total !== undefined ? ` in ${duration(total)}` : ""}` : "",
-    s.rejected_steps || s.shortened_steps ? `tries repeated: ${triesText(s.rejected_steps, s.shortened_steps)}` : "",
-    typeof defect === "number" ? `first law right to ${short(Math.abs(defect))}` : "",
+    s.rejected_steps || s.shortened_steps ? `repeated attempts: ${triesText(s.rejected_steps, s.shortened_steps)}` : "",
+    typeof defect === "number" ? `energy conserved to ${short(Math.abs(defect))}` : "",
   ].filter(Boolean).join(" · ");
 }
 

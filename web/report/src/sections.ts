@@ -32,7 +32,7 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
   add("filling", "Filling", page.runs.some((r) => r.meta.filling_text) ? [perRun(page, fillingSection)] : []);
   add("curves", "Curves", curves(page));
   add("castings", "Castings", page.runs.some((r) => Object.keys(r.summary.answers?.castings ?? {}).length > 1) ? [perRun(page, (r, i) => castings(r, i, bench))] : []);
-  add("uncertain", "What the data add", page.runs.some((r) => r.uncertain?.answers?.length) ? [perRun(page, (r) => uncertain(r))] : []);
+  add("uncertain", "Uncertain data", page.runs.some((r) => r.uncertain?.answers?.length) ? [perRun(page, (r) => uncertain(r))] : []);
   add("criteria", "Criteria", page.runs.some((r) => r.summary.criteria) ? [perRun(page, (r, i) => [criteriaTable(r, i, bench)])] : []);
   add("pools", "Pools of melt", page.runs.some((r) => (r.table("pools")?.rows ?? 0) > 0) ? [perRun(page, (r, i) => pools(r, i, bench))] : []);
   add("shots", "Shots", page.runs.some((r) => (r.table("shots")?.rows ?? 0) > 0) ? [shotCharts(page), perRun(page, (r) => shots(r, bench))] : []);
@@ -41,13 +41,13 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
   add("understood", "Bodies", page.runs.some((r) => r.summary.understood?.bodies?.length) ? [perRun(page, (r) => understood(r))] : []);
   add("materials", "Materials", page.runs.some((r) => r.meta.materials.length) ? [perRun(page, materials)] : []);
   add("case", "Case", [perRun(page, caseText)]);
-  add("cost", "Where the time went", page.runs.some((r) => r.summary["profile[s]"]) ? [perRun(page, cost)] : []);
+  add("cost", "Computing time", page.runs.some((r) => r.summary["profile[s]"]) ? [perRun(page, cost)] : []);
   return out;
 }
 
 const ENERGIES = new Set(["stored_heat", "heat_in", "structural_energy", "work", "contact_energy", "numerical_dissipation", "kinetic_energy", "viscous_dissipation", "plastic_work", "plastic_dissipation", "hardening_energy", "heat_exchanged"]);
 const OTHER_AUDITS = new Set(["energy_defect", "lyapunov", "lyapunov_mechanical", "lyapunov_thermal", "entropy", "entropy_production"]);
-const QUANTITY: Record<string, string> = { degC: "Temperatures", K: "Temperatures", mm: "Lengths", um: "Lengths", m: "Lengths", W: "Heat flow", N: "Forces", kN: "Forces", "1": "Fractions", counts: "Numbers", percent: "Strains and shares", MPa: "Stresses", Pa: "Stresses", J: "Energies", "N m": "Moments" };
+const QUANTITY: Record<string, string> = { s: "Times", degC: "Temperatures", K: "Temperatures", mm: "Lengths", um: "Lengths", m: "Lengths", W: "Heat flow", N: "Forces", kN: "Forces", "1": "Fractions", counts: "Numbers", percent: "Strains and shares", MPa: "Stresses", Pa: "Stresses", J: "Energies", "N m": "Moments" };
 
 function split(header: string): { name: string; unit: string } {
   const match = /^(.*)\[(.*)\]$/.exec(header);
@@ -113,14 +113,14 @@ function energy(page: Page): Node_[] {
   const cards = [
     make("Heat", pick(["stored_heat", "heat_in", "heat_exchanged"]), "J"),
     make("Mechanical energies", pick(["structural_energy", "work", "contact_energy", "kinetic_energy", "viscous_dissipation", "plastic_work", "plastic_dissipation", "hardening_energy"]), "J"),
-    make("What the first law misses", pick(["energy_defect"]), "J"),
+    make("Energy imbalance", pick(["energy_defect"]), "J"),
     make("Functional 𝓛 of stability", pick(["lyapunov"]), "J"),
     make("Change of 𝓛 in a step, by phase", pick(["lyapunov_mechanical", "lyapunov_thermal"]), "J"),
     make("Entropy", pick(["entropy", "entropy_production"]), "J/K"),
   ].filter((c): c is HTMLElement => c !== null);
   if (!cards.length) return [];
   return [
-    h("p", { class: "hint" }, "Sums since the start. 𝓛 is what the bodies could still give off as work in surroundings of the ambient temperature; where nothing feeds them it falls in every step (monograph 2.24)."),
+    h("p", { class: "hint" }, "Sums since the start. 𝓛 is the work that the bodies could still deliver in surroundings at the ambient temperature; without supply from outside it falls in every step (monograph 2.24)."),
     h("div", { class: "cards" }, ...cards),
   ];
 }
@@ -309,7 +309,7 @@ function stepCharts(page: Page): Node {
     const chosen = pick(names);
     return chosen.length ? chart({ title, unit, lines: chosen.flatMap((x, i) => linesOf(page, "steps", x, i)), time: true, logarithmic, steps: !logarithmic && unit === "" }) : null;
   };
-  return h("div", { class: "cards" }, make("Step", "s", ["dt"], true), make("Iterations of a step", "", ["heat_iterations", "mechanics_iterations", "coupling_iterations"], false), make("Seconds a step takes", "s", ["heat_seconds", "mechanics_seconds"], false));
+  return h("div", { class: "cards" }, make("Step", "s", ["dt"], true), make("Iterations per step", "", ["heat_iterations", "mechanics_iterations", "coupling_iterations"], false), make("Computing time per step", "s", ["heat_seconds", "mechanics_seconds"], false));
 }
 
 function stepTables(run: Run): Node_[] {
@@ -331,9 +331,9 @@ function stepTables(run: Run): Node_[] {
   };
   const rows = shown.map((i) => [short(time[i]), short(dt[i]), reason[i], tries(i), ...columns.map((c) => short(c.column[i]))]);
   return [
-    h("div", { class: "card", style: "margin-top:14px" }, h("h3", {}, "Why the steps have their size"), bars([...counts.entries()].sort((a, b) => b[1] - a[1]).slice(0, 12).map(([text, n]) => [text, n, `${n}`]))),
+    h("div", { class: "card", style: "margin-top:14px" }, h("h3", {}, "What limited the step size"), bars([...counts.entries()].sort((a, b) => b[1] - a[1]).slice(0, 12).map(([text, n]) => [text, n, `${n}`]))),
     h("details", { class: "more" }, h("summary", {}, shown.length < order.length ? `Steps (the first and the last ${most / 2} of ${order.length})` : `All ${order.length} steps`),
-      table(["Time [s]", "Step [s]", "Reason", "Tries before", ...columns.map((c) => c.text)], rows)),
+      table(["Time [s]", "Step [s]", "Reason", "Repeated attempts", ...columns.map((c) => c.text)], rows)),
   ];
 }
 
@@ -350,15 +350,15 @@ function understood(run: Run): Node_[] {
     return Array.isArray(low) && Array.isArray(high) ? (high as number[]).map((v, i) => v - (low as number[])[i]).slice(0, run.dimension).map((v) => short(v * 1e3)).join(" × ") + " mm" : "–";
   };
   return [
-    table(["Body", "Material", "Size", "Mass", "Volume", "Skin", "Elements' edges"], bodies.map((o) => [
+    table(["Body", "Material", "Size", "Mass", "Volume", "Surface", "Elements' edges"], bodies.map((o) => [
       String(o.name ?? ""), String(o.material ?? ""), size(o), number(o, "mass[kg]", 1, "kg"), number(o, "volume[m3]", 1e6, "cm³"), number(o, "skin[m2]", 1e4, "cm²"),
       `${number(o, "shortest_edge[m]", 1e3)} … ${number(o, "longest_edge[m]", 1e3)} mm`])),
-    poured.length ? h("h3", { style: "margin-top:18px" }, "What is poured, as estimated before the run") : null,
+    poured.length ? h("h3", { style: "margin-top:18px" }, "Poured bodies, as estimated before the run") : null,
     poured.length ? table(["Body", "Poured at", "Liquidus", "Solidus", "Modulus V/A", "Expected solid after", "Governed by"], poured.map((o) => {
       const celsius = (key: string) => (typeof o[key] === "number" ? `${short((o[key] as number) - 273.15)} °C` : "–");
       return [String(o.body ?? ""), celsius("pouring[K]"), celsius("liquidus[K]"), celsius("solidus[K]"), number(o, "modulus[m]", 1e3, "mm"), typeof o["freezing_time[s]"] === "number" ? duration(o["freezing_time[s]"] as number) : "–", String(o.governed_by ?? "–")];
     })) : null,
-    skins.length ? h("h3", { style: "margin-top:18px" }, "Skins and what they face") : null,
+    skins.length ? h("h3", { style: "margin-top:18px" }, "Surfaces and what they touch") : null,
     skins.length ? table(["Name", "Surface", "Faces", "Area", "Paired"], skins.map((o) => [String(o.name ?? ""), String(o.surface ?? ""), String(o.faces ?? ""), number(o, "area[m2]", 1e4, "cm²"), number(o, "paired[m2]", 1e4, "cm²")])) : null,
   ];
 }
