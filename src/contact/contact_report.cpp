@@ -120,7 +120,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   const auto n = as_size(pair.geometry.components());
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
-    if (!particle.counted) continue;
+    if (!particle.counted || !kinematics.there(p)) continue;
     const ContactPointState& state = pair.end.state.points[as_size(p)];
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     const double w = particle.weight;

@@ -67,6 +67,7 @@ NodalMeans nodal_means_of(const ContactView& pair, std::span<const double> tempe
   if (pair.heat != nullptr && !temperature.empty()) heat = surface_heat(pair.heat->points(), temperature);
   NodalMeans means(n);
   for (Index p = 0; p < kinematics.n_points(); ++p) {
+    if (!kinematics.there(p)) continue;
     const ContactPointState& state = points[as_size(p)];
     const ContactKinematics::Particle particle = kinematics.particle(p);
     // What a particle keeps belongs to the slave's nodes, whether it has a partner now or not.

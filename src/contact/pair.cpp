@@ -178,6 +178,25 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   if (!parts.forces.active()) std::ranges::for_each(points, open_up);
 }
 
+void ContactPair::follow_elements(const FacesThere& faces, const ContactPass& pass, ContactState* state) {
+  PairParts& parts = *parts_;
+  const std::vector<double> still = parts.geometry.no_displacement();
+  const std::span<const double> displacement = pass.displacement.empty() ? still : pass.displacement;
+  const std::vector<char> before = parts.geometry.there();
+  parts.geometry.set_there(faces);
+  parts.partners.clear();  // of points that were there
+  if (state != nullptr) {
+    parts.history.follow_elements(before, displacement, pass.time, *state);
+    // What a new interface stores at once is part of the energy that comes.
+    if (parts.heat.has_temperature()) {
+      begin(*state, {.time = pass.time, .displacement = displacement, .temperature = pass.temperature});
+      for (std::size_t p = 0; p < state->points.size(); ++p)
+        state->points[p].temperature = parts.step.from[p].temperature;
+    }
+  }
+  restore(state != nullptr ? *state : ContactState{}, displacement, pass.time);
+}
+
 std::size_t ContactPair::bytes() const {
   const PairParts& p = *parts_;
   ContactHeat* const heat = p.heat.of_points();

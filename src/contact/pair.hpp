@@ -112,6 +112,12 @@ class ContactPair {
   /// Begins a step of bodies that do not deform and updates the pair: heat alone, where the interface stores
   /// it. Local.
   void hold(const ContactState& old, double time, double dt, std::span<const double> temperature);
+  /// Elements have come or gone (ContactParameters::growing): the points of these faces take part from here
+  /// on, and the pair is as after restore(). Local.
+  /// @param faces  that are there now
+  /// @param pass   time, displacement (empty: bodies that do not deform) and temperature of now
+  /// @param state  gets the history of new points; null: it has it, or there is none
+  void follow_elements(const FacesThere& faces, const ContactPass& pass, ContactState* state);
   /// State of the points at the last update() or restore().
   const ContactState& state() const { return parts_->end.state; }
   std::size_t bytes() const;

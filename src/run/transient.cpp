@@ -139,6 +139,7 @@ Transient::Transient(const cases::CaseSpec& spec, const RunOptions& options, set
   simulation_.add(watches_.friction_lag);
   if (heats_by_end_stresses(spec)) simulation_.add(watches_.stress_work);
   simulation_.add(watches_.gaps);
+  if (chooses_shortest_step_of_growth(spec)) simulation_.add(watches_.growth_steps.emplace(spec, a));
   if (!spec.channels.empty()) simulation_.add(watches_.channels);
   simulation_.add(watches_.dissipation);
   if (a.phases.audits_stability()) simulation_.add(watches_.stability);

@@ -13,6 +13,7 @@
 #include "run/channel_watch.hpp"
 #include "run/dissipation_watch.hpp"
 #include "run/gap_watch.hpp"
+#include "run/growth_step_watch.hpp"
 #include "run/lag_watch.hpp"
 #include "run/melt_watch.hpp"
 #include "run/range_watch.hpp"
@@ -68,6 +69,7 @@ class Transient {
     FrictionLagWatch friction_lag;
     StressWorkWatch stress_work;
     GapWatch gaps;
+    std::optional<GrowthStepWatch> growth_steps;
     ChannelWatch channels;
   };
 

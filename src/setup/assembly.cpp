@@ -102,6 +102,7 @@ void build_contacts(const cases::CaseSpec& spec, Assembly& a) {
     set_solid_penalty(a.mesh, a.materials, pair);
     set_mean_conductivity(a.mesh, a.materials, pair);
     choose_normal(spec, a.materials, pair);
+    set_growing_surfaces(spec, a.mesh, pair);
     a.contacts.push_back(
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
     a.phases.contacts.push_back(a.contacts.back().get());
@@ -325,7 +326,6 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
   for (const InitialTemperatureRange& range : a.start) highest.push_back(range.high);
   cases::check_melts(spec, a.materials, highest);
   if (!spec.depositions.empty()) {  // divides the blocks of the mesh, to which nothing refers yet
-    check_contacts_of_growth(spec, a.mesh);
     a.growth = std::make_unique<Deposition>(spec, a);
     a.phases.growth = a.growth.get();
   }
@@ -343,6 +343,7 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
     a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points
   }
   if (spec.has_heat()) build_heat(spec, start, a);
+  if (a.growth) a.growth->begin_contacts();
   // The range of temperatures that a coupled run may reach is checked against the coldest start.
   if (spec.coupled())
     a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;

@@ -265,25 +265,6 @@ void check_depositions(const cases::CaseSpec& spec) {
           "no 'stages' of bodies together with a [[deposition]]");
 }
 
-void check_contacts_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mesh) {
-  std::vector<char> grows(mesh.x.size(), 0);
-  for (const cases::DepositionSpec& d : spec.depositions)
-    for (const mesh::ElementBlock& block : mesh.blocks)
-      if (mesh.bodies[as_size(block.body)].name == d.body)
-        for (const Index node : block.nodes) grows[as_size(node)] = 1;
-  for (const cases::ContactSpec& c : spec.contacts)
-    for (const std::string& side : c.sides()) {
-      const auto nodes = mesh.node_sets.find(side);
-      const bool any = nodes != mesh.node_sets.end() &&
-                       std::ranges::any_of(nodes->second, [&](Index i) { return grows[as_size(i)] != 0; });
-      if (parallel::any_process(any))
-        throw InputError(c.where,
-                         fmt::format("the contact '{}' acts on '{}', of a body that grows: not possible yet",
-                                     c.name, side),
-                         "a mesh whose bodies share nodes there");
-    }
-}
-
 namespace {
 
 /// Checks that the elements of bodies that grow can have a stress.
@@ -327,6 +308,13 @@ Deposition::Deposition(const cases::CaseSpec& spec, Assembly& a)
   if (!spec.has_mechanics()) mesh_.advance(0);
 }
 
+void Deposition::begin_contacts() {
+  contacts_ = std::make_unique<GrowingContacts>(a_.mesh, a_.contacts);
+  contacts_->follow(present(), 0, nullptr);
+  for (std::size_t i = 0; i < a_.initial.contacts.size(); ++i)
+    a_.initial.contacts[i] = a_.contacts[i]->parts().history.initial();
+}
+
 bool Deposition::due(double time) const {
   return std::ranges::any_of(mesh_.times(), [&](double t) { return t > mesh_.time() && t <= time; });
 }
@@ -360,6 +348,8 @@ coupling::BodyHeat Deposition::grow(double time, coupling::State* state) {
         state != nullptr ? &state->heat : nullptr);
   }
   if (a_.mechanics) grow_mechanics(spec_, stage, time, state, a_);
+  // New nodes have their displacement and temperature: contact begins there.
+  if (contacts_) contacts_->follow(present(), time, state);
   // Criteria refer to the elements and to the storage that have just changed; their records go on.
   if (a_.criteria)
     a_.criteria->replace(

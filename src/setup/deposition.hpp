@@ -8,6 +8,7 @@
 #include "cases/case_spec.hpp"
 #include "coupling/growth.hpp"
 #include "linear/growing_mesh.hpp"
+#include "setup/growing_contacts.hpp"
 
 namespace solidus::setup {
 
@@ -15,8 +16,6 @@ struct Assembly;
 
 /// Checks what a case with depositions may have. Throws InputError.
 void check_depositions(const cases::CaseSpec& spec);
-/// Checks that no contact acts on what grows. Throws InputError. Collective.
-void check_contacts_of_growth(const cases::CaseSpec& spec, const mesh::Mesh& mesh);
 
 /// The growth of a case's bodies. The thermal phase is made on present(), which has what is there at the
 /// start.
@@ -27,6 +26,8 @@ class Deposition : public coupling::Growth {
   Deposition(const cases::CaseSpec& spec, Assembly& a);
 
   const mesh::Mesh& present() const { return mesh_.present(); }
+  /// From here on contacts have the faces that are there; those of the start are set at once. Collective.
+  void begin_contacts();
   const std::vector<double>& births() const override { return mesh_.times(); }
   bool due(double time) const override;
   coupling::BodyHeat grow(double time, coupling::State* state) override;
@@ -37,7 +38,8 @@ class Deposition : public coupling::Growth {
   const cases::CaseSpec& spec_;
   Assembly& a_;
   linear::GrowingMesh mesh_;
-  std::vector<char> grows_;  ///< [body]
+  std::vector<char> grows_;                    ///< [body]
+  std::unique_ptr<GrowingContacts> contacts_;  ///< null before begin_contacts()
 };
 
 }  // namespace solidus::setup

@@ -46,10 +46,17 @@ std::span<const Index> nodes_of(const mesh::Mesh& mesh, const Newborn& n) {
   return {block.element(n.element), as_size(mesh::node_count(block.shape))};
 }
 
-/// The times from which nodes belong to something that is held, [local node]; infinite: never. Collective.
-std::vector<double> held_from(const mesh::Mesh& mesh, const std::vector<linear::GrowingMesh::Births>& births,
+/// The times from which nodes belong to something that is held, or that others hold by contact, [local node];
+/// infinite: never. Collective.
+std::vector<double> held_from(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
+                              const std::vector<linear::GrowingMesh::Births>& births,
                               const std::vector<Newborn>& newborn) {
   std::vector<double> held(mesh.x.size(), HUGE_VAL);
+  // Surfaces in contact pass forces and heat.
+  for (const cases::ContactSpec& c : spec.contacts)
+    for (const std::string& side : c.sides())
+      if (const auto surface = mesh.surfaces.find(side); surface != mesh.surfaces.end())
+        for (const Index node : surface->second.nodes) held[as_size(node)] = -HUGE_VAL;
   // What is there at the start is held.
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
     for (Index e = 0; e < mesh.blocks[b].size(); ++e)
@@ -157,7 +164,7 @@ void check_births(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                   const std::vector<linear::GrowingMesh::Births>& births) {
   const std::vector<Newborn> newborn = by_time(births);
   warn_of_late_births(spec, mesh, newborn);
-  const std::vector<double> held = held_from(mesh, births, newborn);
+  const std::vector<double> held = held_from(spec, mesh, births, newborn);
   for (const cases::DepositionSpec& d : spec.depositions) {
     double count = 0, first = HUGE_VAL;
     for (const Newborn& n : newborn) {

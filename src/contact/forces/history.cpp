@@ -24,29 +24,40 @@ ContactHistory::ContactHistory(const ContactGeometry& geometry, AnalysisKind kin
   worn_ = std::make_unique<MasterWear>(geometry.mesh(), kind, *surfaces.master);
 }
 
+ContactPointState ContactHistory::as_drawn(Index p, const ContactKinematics& kinematics) const {
+  // A point with a partner is anchored where it projects; those that overlap or touch start closed, sticking
+  // where there is friction, with the pressure of their penetration.
+  ContactPointState point;
+  const ContactKinematics::Particle particle = kinematics.particle(p);
+  point.number = particle.number;
+  point.counted = particle.counted;
+  point.stiffening = law_.stiffening;  // an overlap of the drawing is that of solid bodies
+  const PointMotion motion = kinematics.motion(p, {}, ContactKinematics::Asked::motion);
+  if (!motion.partnered) return point;
+  point.anchored = true;
+  point.anchor = motion.anchor;
+  point.master_normal = motion.master_normal;
+  point.offset = geometry_.initial_offset(p, motion.penetration);
+  point.penetration = motion.penetration + point.offset;
+  if (point.penetration < 0) return point;
+  point.status = law_.friction ? PointStatus::sticks : PointStatus::slips;
+  point.pressure = point.balance_pressure = law_.normal_at(point).penalty * point.penetration;
+  return point;
+}
+
+void ContactHistory::keep_gap(Index p, const ContactKinematics& now, ContactPointState& point) {
+  if (!point.anchored) return;  // without a partner in the drawing
+  const PointMotion motion = now.motion(p, point, ContactKinematics::Asked::motion);
+  if (!motion.partnered) return;
+  point.offset = point.penetration - motion.penetration;
+  point.anchor = motion.anchor;
+  point.master_normal = motion.master_normal;
+}
+
 ContactState ContactHistory::initial() const {
   const ContactKinematics& kinematics = geometry_.at(0, geometry_.no_displacement());
   ContactState state;
-  state.points.resize(as_size(kinematics.n_points()));
-  for (Index p = 0; p < kinematics.n_points(); ++p) {
-    // Each point with a partner is anchored where it projects; those that overlap or touch start closed,
-    // sticking where there is friction, with the pressure of their penetration.
-    ContactPointState& point = state.points[as_size(p)];
-    const ContactKinematics::Particle particle = kinematics.particle(p);
-    point.number = particle.number;
-    point.counted = particle.counted;
-    point.stiffening = law_.stiffening;  // an overlap of the drawing is that of solid bodies
-    const PointMotion motion = kinematics.motion(p, {}, ContactKinematics::Asked::motion);
-    if (!motion.partnered) continue;
-    point.anchored = true;
-    point.anchor = motion.anchor;
-    point.master_normal = motion.master_normal;
-    point.offset = geometry_.initial_offset(p, motion.penetration);
-    point.penetration = motion.penetration + point.offset;
-    if (point.penetration < 0) continue;
-    point.status = law_.friction ? PointStatus::sticks : PointStatus::slips;
-    point.pressure = point.balance_pressure = law_.normal_at(point).penalty * point.penetration;
-  }
+  for (Index p = 0; p < kinematics.n_points(); ++p) state.points.push_back(as_drawn(p, kinematics));
   if (worn_) state.master = worn_->initial_state();
   return state;
 }
@@ -58,15 +69,7 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
     const ContactKinematics& kinematics = geometry_.at(time, displacement);
     // In the present geometry the gap of the drawing is kept: the offset makes up for how far the sides have
     // moved.
-    for (Index p = 0; p < kinematics.n_points(); ++p) {
-      ContactPointState& point = state.points[as_size(p)];
-      if (!point.anchored) continue;  // without a partner in the drawing
-      const PointMotion motion = kinematics.motion(p, point, ContactKinematics::Asked::motion);
-      if (!motion.partnered) continue;
-      point.offset = point.penetration - motion.penetration;
-      point.anchor = motion.anchor;
-      point.master_normal = motion.master_normal;
-    }
+    for (Index p = 0; p < kinematics.n_points(); ++p) keep_gap(p, kinematics, state.points[as_size(p)]);
   }
   if (old.points.empty()) return state;
   // Quantities that belong to the surface stay with a side that is not new.
@@ -78,6 +81,19 @@ ContactState ContactHistory::renewed(const ContactState& old, bool new_slave, bo
         state.points[p].*field = old.points[p].*field;
   if (!new_master) state.master = old.master;
   return state;
+}
+
+void ContactHistory::follow_elements(std::span<const char> before, std::span<const double> displacement,
+                                     double time, ContactState& state) const {
+  const auto changed = [&](Index p) { return geometry_.kinematics().there(p) != (before[as_size(p)] != 0); };
+  // As drawn first, at the present place of a rigid surface; then the offset makes up for how far the sides
+  // have moved since.
+  const ContactKinematics& drawn = geometry_.at(time, geometry_.no_displacement());
+  for (Index p = 0; p < drawn.n_points(); ++p)
+    if (changed(p)) state.points[as_size(p)] = as_drawn(p, drawn);
+  const ContactKinematics& now = geometry_.at(time, displacement);
+  for (Index p = 0; p < now.n_points(); ++p)
+    if (changed(p)) keep_gap(p, now, state.points[as_size(p)]);
 }
 
 void ContactHistory::set_out_from(const ContactState& state, ContactStep& step) const {

@@ -29,6 +29,12 @@ class ContactHistory {
   /// @param displacement  [local node][component] [m]
   ContactState renewed(const ContactState& old, bool new_slave, bool new_master,
                        std::span<const double> displacement, double time) const;
+  /// Elements have come or gone: points that have their faces now and had not begin as metal that arrives at
+  /// what is there, with the gaps of the drawing whatever the displacement, closed where the drawing closes
+  /// them; those that have lost a face forget everything. Local.
+  /// @param before  ContactGeometry::there() until now
+  void follow_elements(std::span<const char> before, std::span<const double> displacement, double time,
+                       ContactState& state) const;
   /// Makes a state (empty: initial()) the one that a step sets out from.
   void set_out_from(const ContactState& state, ContactStep& step) const;
   /// Sets what the skin does at a point. Metal below coherency does not rub there; and where it touches its
@@ -54,6 +60,11 @@ class ContactHistory {
   std::vector<MasterWear::Depth> depths(const ContactState& state) const;
 
  private:
+  /// A point where the bodies are as drawn.
+  ContactPointState as_drawn(Index point, const ContactKinematics& kinematics) const;
+  /// Keeps the gap that a point has as drawn in the present geometry.
+  static void keep_gap(Index p, const ContactKinematics& now, ContactPointState& point);
+
   const ContactGeometry& geometry_;
   const ContactParameters& spec_;
   const PointLaw& law_;

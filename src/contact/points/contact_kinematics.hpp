@@ -89,6 +89,8 @@ class ContactKinematics {
   /// The effect of facets of curved surfaces on the gap of a point, between it and its partner as last
   /// placed; of a point that stands for a part of the slave the mean.
   virtual FacetGap facets(Index /*point*/) const { return {}; }
+  /// Whether the faces of a point are there; else it has no partner (growing_kinematics.hpp).
+  virtual bool there(Index /*point*/) const { return true; }
   /// Part of the slave surface that has a partner in the reference configuration, 0 to 1. Collective at
   /// construction, not here.
   virtual double coverage() const = 0;

@@ -127,6 +127,7 @@ ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, cons
       facets_close_(!spec.touching && spec.formulation == Formulation::small_sliding),
       surface_nodes_(owned_nodes(mesh, surfaces)) {
   make_kinematics(kind, spec, surfaces);
+  if (!spec.growing.empty()) let_grow(spec);
   configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
   if (!facets_close_) return;
@@ -137,6 +138,37 @@ ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, cons
     if (const FacetGap facets = kinematics_->facets(p); facets.fits > k_mostly)
       bound = std::max(bound, facets.bound);
   touching_ += 2 * bound;
+}
+
+void ContactGeometry::let_grow(const ContactParameters& spec) {
+  const auto refuse = [&](const std::string& what, const std::string& allowed) {
+    throw InputError(spec.where, fmt::format("contact '{}': {}", spec.name, what), allowed);
+  };
+  const bool grows = std::ranges::find(spec.growing, spec.master) != spec.growing.end();
+  if (grows && spec.formulation == Formulation::large_sliding)
+    refuse(fmt::format("its master '{}' grows, which large sliding cannot follow yet", spec.master),
+           "the surface that grows as the slave, or formulation = \"small_sliding\"");
+  if (spec.integration == IntegrationRule::mortar)
+    refuse("integration = \"mortar\" where a surface grows: means around nodes are of several faces",
+           "integration = \"segments\", \"gauss\" or \"nodal\"");
+  // A point of small sliding keeps its faces on both sides; elsewhere the whole master is there.
+  std::vector<Index> master_face;
+  if (const auto* fixed = dynamic_cast<const FixedKinematics*>(kinematics_.get()))
+    for (const Pairing& pairing : fixed->points().pairings)
+      master_face.insert(master_face.end(), as_size(pairing.n_points), pairing.master_face);
+  auto growing = std::make_unique<GrowingKinematics>(std::move(kinematics_), std::move(master_face));
+  growing_ = growing.get();
+  kinematics_ = std::move(growing);
+}
+
+std::vector<char> ContactGeometry::there() const {
+  std::vector<char> all(as_size(n_points()));
+  for (Index p = 0; p < n_points(); ++p) all[as_size(p)] = kinematics_->there(p) ? 1 : 0;
+  return all;
+}
+
+void ContactGeometry::set_there(const FacesThere& faces) {
+  if (growing_ != nullptr) growing_->set_there(faces);
 }
 
 double ContactGeometry::initial_offset(Index point, double penetration) const {

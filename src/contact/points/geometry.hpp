@@ -11,6 +11,7 @@
 #include "contact/points/contact_kinematics.hpp"
 #include "contact/points/current_configuration.hpp"
 #include "contact/points/graph.hpp"
+#include "contact/points/growing_kinematics.hpp"
 #include "contact/points/parameters.hpp"
 #include "contact/surfaces/surface.hpp"
 #include "contact/surfaces/surface_curvature.hpp"
@@ -55,6 +56,11 @@ class ContactGeometry {
     configuration_->place(time, displacement, points);
     return *kinematics_;
   }
+  /// Which points have the faces on both of their sides, [point].
+  std::vector<char> there() const;
+  /// Sets which faces of the surfaces are there, where they may come and go (ContactParameters::growing).
+  /// Local.
+  void set_there(const FacesThere& faces);
   /// A displacement of zero, [local node][component].
   std::vector<double> no_displacement() const;
 
@@ -74,12 +80,15 @@ class ContactGeometry {
 
  private:
   void make_kinematics(AnalysisKind kind, const ContactParameters& spec, const PairSurfaces& surfaces);
+  /// The kinematics become those of faces that come and go.
+  void let_grow(const ContactParameters& spec);
 
   const mesh::Mesh& mesh_;
   int components_;
   double face_size_, touching_;
   bool facets_close_ = false;  ///< the data do not say what counts as touching
   std::unique_ptr<ContactKinematics> kinematics_;
+  GrowingKinematics* growing_ = nullptr;  ///< kinematics_ where faces come and go
   std::unique_ptr<CurrentConfiguration> configuration_;
   std::unique_ptr<ContactGraph> graph_;
   std::vector<Index> surface_nodes_;

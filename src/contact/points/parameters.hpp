@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "contact/interface/friction.hpp"
 #include "contact/interface/heat_transfer.hpp"
@@ -28,6 +29,8 @@ struct ContactParameters {
   bool choose_roles = false;
   /// Instead of a surface of the mesh, with large sliding.
   std::optional<RigidSurface> rigid_master;
+  /// Those of the two surfaces whose faces come or go with the elements of bodies that grow.
+  std::vector<std::string> growing;
   Formulation formulation = Formulation::small_sliding;
   bool smoothing = false;  ///< averaged normals of the master (large sliding)
   NormalKind normal = NormalKind::penalty;
