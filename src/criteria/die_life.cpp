@@ -14,6 +14,8 @@ namespace solidus::criteria {
 
 namespace {
 
+/// The record of a node: its hottest and its coldest temperature in the present shot, the strain range of the
+/// last complete shot and, in dies that deform, the strains at both moments.
 enum Columns : std::size_t { k_hottest, k_coldest, k_last, k_hot_strain, k_cold_strain };
 
 /// The mark for no value: no fatigue is followed there, or nothing has happened yet.
@@ -26,6 +28,7 @@ double equivalent(const double* a, const double* b) {
   return std::sqrt(2.0 / 3.0 * dot(e, e));
 }
 
+/// Marks the bodies whose fatigue a [[die_life]] follows.
 std::vector<char> tiring_bodies(const CriterionContext& context) {
   std::vector<char> bodies;
   for (const std::optional<FatigueLaw>& law : context.fatigue) bodies.push_back(law.has_value() ? 1 : 0);
@@ -45,11 +48,14 @@ DieLife::DieLife(const CriterionContext& context)
       laws_(context.fatigue),
       body_(die_nodes(context.mesh, tiring_bodies(context))),
       ghosts_(context.mesh) {
+  // Data of the free thermal strain, for dies that only conduct heat, and Poisson's ratio, for those that
+  // deform.
   for (const material::Material& m : context.materials) {
     expansion_.push_back(m.expansion);
     poisson_.push_back(m.poisson_ratio);
     reference_.push_back(m.expansion_reference);
   }
+  // Only the elements of dies that deform evaluate strains.
   for (const mesh::ElementBlock& block : mesh_.blocks) {
     const std::optional<FatigueLaw>& law = laws_[as_size(block.body)];
     if (law && law->deforms) blocks_.push_back({ElementStrain(mesh_, block, context.kind), &block});
@@ -61,6 +67,7 @@ std::vector<double> DieLife::strains(const CriterionInput& moment) const {
   std::vector<double> sum(blocks_.empty() ? 0 : mesh_.x.size() * k_tensor, 0.0),
       volume(blocks_.empty() ? 0 : mesh_.x.size(), 0.0);
   if (blocks_.empty() || moment.mechanics.displacement.empty()) return sum;
+  // Elements are evaluated eight at a time; each adds its strain to its nodes, weighted by its volume.
   for (const Deforming& one : blocks_) {
     const auto n_nodes = as_size(mesh::node_count(one.block->shape));
     for (Index batch = 0; batch < one.strain.n_batches(); ++batch) {
@@ -77,6 +84,7 @@ std::vector<double> DieLife::strains(const CriterionInput& moment) const {
       }
     }
   }
+  // A process has all elements of its own nodes; nodes of others get their values from their owners.
   for (std::size_t node = 0; node < volume.size(); ++node)
     for (std::size_t i = 0; volume[node] > 0 && i < k_tensor; ++i) sum[node * k_tensor + i] /= volume[node];
   ghosts_.update(sum, static_cast<int>(k_tensor));
@@ -103,6 +111,7 @@ CriterionRecord DieLife::restart(const CriterionRecord& before, const CriterionI
   return before;
 }
 
+/// The range of the shot that ends is kept, and the extremes of the new shot start from its first state.
 CriterionRecord DieLife::next_shot(const CriterionRecord& before, const CriterionInput& start) const {
   CriterionRecord record = initial(start);
   for (std::size_t node = 0; node < mesh_.x.size(); ++node)
@@ -116,6 +125,7 @@ void DieLife::step(const CriterionInput& /*old*/, const CriterionInput& next, Cr
   for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
     if (body_[node] < 0) continue;
     const double t = next.heat.temperature[node];
+    // The strain of this moment is stored with the extreme that it sets.
     const auto take = [&](std::size_t column) {
       if (strain.empty()) return;
       const auto from = strain.begin() + static_cast<std::ptrdiff_t>(node * k_tensor);
@@ -133,6 +143,9 @@ void DieLife::step(const CriterionInput& /*old*/, const CriterionInput& next, Cr
   }
 }
 
+/// The strain range since the start of the shot. A die that deforms has equation (f) of
+/// docs/theory/channels.md, with Poisson's ratio at the hottest moment; one that only conducts heat has the
+/// bound (g), twice the difference of the free thermal strains.
 double DieLife::present_range(const CriterionRecord& record, std::size_t node) const {
   if (body_[node] < 0) return k_nothing;
   const auto body = as_size(body_[node]);
@@ -147,6 +160,7 @@ double DieLife::present_range(const CriterionRecord& record, std::size_t node) c
   return 2 * std::abs(grown(hot) - grown(cold));
 }
 
+/// The last complete shot counts until the present one exceeds it.
 double DieLife::range(const CriterionRecord& record, std::size_t node) const {
   return std::max(record.columns[k_last].values[node], present_range(record, node));
 }

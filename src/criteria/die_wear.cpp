@@ -11,11 +11,14 @@ namespace solidus::criteria {
 
 namespace {
 
+/// The record of a node: its depth of wear now and at the start of the shot, and that of the last complete
+/// shot.
 enum Columns : std::size_t { k_depth, k_depth_before, k_depth_of_last };
 
 /// The mark for no value: of nodes that are not followed, or that nothing wears.
 constexpr double k_nothing = -1;
 
+/// Marks the bodies with a limit of wear.
 std::vector<char> worn_bodies(const CriterionContext& context) {
   std::vector<char> bodies;
   for (const DieLimits& limits : context.die_limits) bodies.push_back(limits.worn_depth.has_value() ? 1 : 0);
@@ -66,11 +69,13 @@ void DieWear::step(const CriterionInput& /*old*/, const CriterionInput& next, Cr
   ghosts_.update(depth, 1);
 }
 
+/// The last complete shot counts until the present one exceeds it.
 double DieWear::in_shot(const CriterionRecord& record, std::size_t node) const {
   const double present = record.columns[k_depth].values[node] - record.columns[k_depth_before].values[node];
   return std::max(present, record.columns[k_depth_of_last].values[node]);
 }
 
+/// Equation (i) of docs/theory/channels.md: the allowed depth over the depth of one shot.
 double DieWear::shots(double depth, std::size_t node) const {
   if (body_[node] < 0 || !(depth > 0)) return k_nothing;
   return std::min(*limits_[as_size(body_[node])].worn_depth / depth, k_most_cycles);

@@ -18,6 +18,7 @@ double heat_at(const NodalEnthalpy& storage, const ThermalState& state, Index no
 
 ThermalState ThermalStates::initial(std::span<const double> body_temperature) const {
   assert(body_temperature.size() == parts_.mesh.bodies.size());
+  // The enthalpy of a body at its initial temperature is the same at all of its nodes.
   std::vector<double> enthalpy;
   for (std::size_t b = 0; b < body_temperature.size(); ++b)
     enthalpy.push_back(parts_.storage->body_enthalpy(static_cast<int>(b), body_temperature[b]));
@@ -29,6 +30,7 @@ ThermalState ThermalStates::initial_of(const std::function<double(Index, int)>& 
   state.temperature.resize(parts_.mesh.x.size());
   state.enthalpy.resize(parts_.mesh.x.size());
   for (Index i = 0; i < parts_.mesh.n_owned_nodes; ++i) {
+    // A node between bodies gets the heat of each of them; its temperature is that of the mixture.
     state.enthalpy[as_size(i)] =
         parts_.storage->sum_of_bodies(i, [&](int body) { return enthalpy(i, body); });
     // A node at which nothing has grown yet has no heat, and a temperature that nothing reads.
@@ -38,6 +40,7 @@ ThermalState ThermalStates::initial_of(const std::function<double(Index, int)>& 
   }
   parts_.ghosts.update(state.temperature, 1);
   parts_.ghosts.update(state.enthalpy, 1);
+  // Where heat is stored at Gauss points the state is the temperature alone.
   if (!parts_.nodal()) state.enthalpy.clear();
   return state;
 }
@@ -60,6 +63,7 @@ double ThermalStates::heat_content(const ThermalState& state) const {
 }
 
 std::vector<double> ThermalStates::plateau_share(const ThermalState& state) const {
+  // The share says how far a node has gone through a change of phase at constant temperature.
   if (!parts_.storage->has_plateaus()) return {};
   std::vector<double> share(parts_.mesh.x.size());
   for (Index i = 0; i < parts_.mesh.n_owned_nodes; ++i)
@@ -78,6 +82,7 @@ std::vector<double> ThermalStates::solid_fraction(const ThermalState& state) con
   return fraction;
 }
 
+/// The mean over the volume of one body, by the volumes that its nodes have of it.
 double ThermalStates::mean_solid_fraction(const ThermalState& state, int body) const {
   double solid = 0, volume = 0;
   for (Index i = 0; i < parts_.mesh.n_owned_nodes; ++i) {
@@ -131,6 +136,8 @@ EntropyChange ThermalStates::entropy_change(const ThermalState& from, const Ther
           parallel::global_sum(sum.behind)};
 }
 
+/// The heat that is stored in all bodies, at nodes or at Gauss points; the consistent rule adds the part in
+/// which it differs from nodal storage.
 double ThermalStates::enthalpy(const ThermalState& state) const {
   double sum = 0;
   if (!parts_.nodal()) {

@@ -21,6 +21,7 @@ double length(const Position& a, const Position& b) {
   return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
+/// Whether the ending of a file says that it holds G-code.
 bool names_gcode(const std::filesystem::path& file) {
   for (const char* ending : {".gcode", ".nc", ".ngc", ".tap"})
     if (file.extension() == ending) return true;
@@ -53,6 +54,7 @@ std::vector<double> column(const ColumnTable& table, const std::string& name, co
   return values;
 }
 
+/// A path from the columns of a table, with the checks that a path needs.
 TravelPath path_of_table(const ColumnTable& table, int dimension, double start) {
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   const std::vector<double> t = column(table, "t", "s", true, 0, rows),
@@ -84,6 +86,7 @@ struct Word {
 /// The words of a line without its comments.
 std::vector<Word> words(std::string line, const SourceLocation& where) {
   line = line.substr(0, line.find(';'));
+  // Comments are in brackets or follow a semicolon.
   for (std::size_t open; (open = line.find('(')) != std::string::npos;) {
     const std::size_t close = line.find(')', open);
     if (close == std::string::npos) throw InputError(where, "a comment has no end", "( ... )");
@@ -142,6 +145,7 @@ class Machine {
             "G0, G1, G4, G20, G21, G90, G91, M2, M3, M4, M5, M30, X, Y, Z, F, N; after G4 P or S");
       }
     }
+    // A dwell keeps the place, and the tool as it is, for its time.
     if (dwells_) {
       if (!(wait > 0)) throw InputError(where_, "G4 waits for no time", "G4 P500, in ms, or G4 S0.5, in s");
       add(x_, wait, on_);

@@ -12,6 +12,7 @@ namespace solidus::linear {
 
 namespace {
 
+/// Adds one element of a block to another; whether this process counts it is kept.
 void append(mesh::ElementBlock& to, const mesh::ElementBlock& from, Index element) {
   const Index* nodes = from.element(element);
   to.nodes.insert(to.nodes.end(), nodes, nodes + mesh::node_count(from.shape));
@@ -43,6 +44,8 @@ GrowingMesh::GrowingMesh(const mesh::Mesh& whole, std::vector<Births> births, st
       bare_(std::move(bare)),
       time_(-std::numeric_limits<double>::infinity()),
       present_(whole) {
+  // Times of activation are grouped first, so that all that follows sees the grouped ones. Elements are also
+  // found by their number in the input, for fields and checkpoints.
   round_times(interval);
   for (std::size_t b = 0; b < births_.size(); ++b)
     for (std::size_t e = 0; e < births_[b].size(); ++e)
@@ -77,6 +80,7 @@ void GrowingMesh::find_faces() {
           found->second.sides.push_back({static_cast<std::int32_t>(b), e, k});
         }
     }
+  // Faces of named surfaces keep their surface and need no other one when they are bare.
   for (const auto& [name, surface] : whole_.surfaces)
     for (const mesh::ElementBlock& faces : surface.faces)
       for (Index f = 0; f < faces.size(); ++f)
@@ -90,10 +94,12 @@ bool GrowingMesh::born(const Side& side) const {
   return of_block.empty() || of_block[as_size(side.element)] <= time_;
 }
 
+/// How many of the elements at a face are active: one of two makes it bare.
 int GrowingMesh::present_sides(const Face& face) const {
   return static_cast<int>(std::ranges::count_if(face.sides, [&](const Side& s) { return born(s); }));
 }
 
+/// Blocks and surfaces are filled again only where elements are activated between the last time and this one.
 bool GrowingMesh::advance(double time) {
   const auto changes = [&](double t) { return t > time_ && t <= time; };
   const bool first = time_ == -std::numeric_limits<double>::infinity();
@@ -134,6 +140,8 @@ void GrowingMesh::fill_surfaces() {
       left.body = faces.body;
       for (Index f = 0; f < faces.size(); ++f) {
         const auto face = faces_.find(mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape)));
+        // A face that no growing element touches is always there; any other one as long as exactly one of its
+        // sides is active.
         if (face == faces_.end() || present_sides(face->second) == 1) append(left, faces, f);
       }
     }
@@ -148,6 +156,8 @@ void GrowingMesh::add_bare_faces() {
     for (const mesh::FaceKey& key : order_) {
       const Face& face = faces_.at(key);
       if (face.named || face.sides.size() != 2 || present_sides(face) != 1) continue;
+      // The bare face belongs to the active element; the surface that it joins is the one named for the
+      // growing body.
       const Side& side = born(face.sides[0]) ? face.sides[0] : face.sides[1];
       const Side& growing = births_[as_size(face.sides[0].block)].empty() ? face.sides[1] : face.sides[0];
       const std::string& joins = bare_[as_size(whole_.blocks[as_size(growing.block)].body)];

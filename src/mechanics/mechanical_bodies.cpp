@@ -52,6 +52,7 @@ MechanicalBodies::~MechanicalBodies() = default;
 
 void MechanicalBodies::set_body_force(double time) {
   run_collectively([&] {
+    // Mixed elements stabilise with the residual of equilibrium, in which body forces are a term.
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       auto* const kernel = dynamic_cast<MixedKernel*>(blocks[b].get());
       if (kernel == nullptr) continue;
@@ -73,6 +74,8 @@ std::size_t MechanicalBodies::n_residuals() const {
   return n_forces() + (pressure ? as_size(mesh.n_owned_nodes * pressure->fields().n_fields) : std::size_t{0});
 }
 
+/// The first guess of Newton's iteration: an iterate of the phases, an extrapolation, or the old state, with
+/// the prescribed displacements of the new time.
 std::vector<double> MechanicalBodies::start(const MechanicalState& old, const MechanicalPass& pass) const {
   const MechanicalState& from = pass.iterate != nullptr ? *pass.iterate : old;
   std::vector<double> x(n_unknowns());

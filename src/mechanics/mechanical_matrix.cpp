@@ -34,6 +34,7 @@ void MechanicalMatrix::create() {
   create_solver();
 }
 
+/// Other supports change the factors, not the pattern.
 void MechanicalMatrix::set_fixed() {
   matrix_->set_fixed(bodies_.loads->fixed());
   solver_->forget();
@@ -56,6 +57,7 @@ linear::NodeGraph MechanicalMatrix::graph() const {
     for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !bodies_.active.node(as_index(i));
     graph.leave_out(std::move(absent));
   }
+  // Nodes of an element are coupled with each other, and those of a contact with its opposite faces.
   for (const mesh::ElementBlock& block : bodies_.mesh.blocks)
     if (bodies_.active.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const linear::Contribution* contribution : bodies_.contributions) contribution->add_to_graph(graph);
@@ -88,6 +90,8 @@ void MechanicalMatrix::bind() {
 }
 
 void MechanicalMatrix::create_solver() {
+  // Saddle points of mixed elements have a solver of their own; displacements alone use the rigid motions as
+  // the coarsest modes of multigrid.
   if (solver_) seconds_before_ += solver_->seconds().sum();
   saddle_ = nullptr;
   if (bodies_.pressure) {

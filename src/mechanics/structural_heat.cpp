@@ -18,6 +18,7 @@ struct StructuralHeat::Stages {
 
 StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
     : phase_(phase), form_(form), stages_(std::make_unique<Stages>()) {
+  // A body that changes phase at one temperature stores heat at its nodes whatever the rule is.
   for (const mesh::ElementBlock& block : phase.mesh().blocks)
     at_nodes_.push_back(closed || phase.bodies().material(block.body).changes_isothermally());
   spread_heat_as_stored(phase, closed);
@@ -25,12 +26,14 @@ StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form
 
 StructuralHeat::~StructuralHeat() = default;
 
+/// A new deformation starts with the stage of a one-stage step over its whole length.
 void StructuralHeat::set_deformation(StepDeformation deformation) {
   deformation_ = std::move(deformation);
   stages_->of_block.clear();
   for (const auto& points : deformation_) stages_->of_block.push_back({{points ? points->dt() : 0.0, 0}, {}});
 }
 
+/// Blocks add to an array with room for ghosts, of which the owned part is the residual.
 void StructuralHeat::add_residual(std::span<const double> temperature, std::span<double> r) {
   work_.assign(temperature.size(), 0.0);
   for (std::size_t b = 0; b < deformation_.size(); ++b)
@@ -62,6 +65,7 @@ void StructuralHeat::begin_stage(const linear::RungeKuttaStage& stage, std::span
     if (deformation_[b]) stages_->of_block[b] = deformation_[b]->stage(stage, temperature);
 }
 
+/// Changes of the structural energy and entropy in a step, summed over blocks and processes.
 StructuralChange structural_change(const StepDeformation& deformation, std::span<const double> temperature) {
   StructuralChange total;
   for (const auto& points : deformation) {
@@ -87,6 +91,7 @@ StructuralChange mechanical_change(const StepDeformation& deformation) {
   return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy)};
 }
 
+/// Heat of the free expansion to a temperature, for the thermal phase that precedes the mechanical one.
 StructuralLead expected_expansion(const StepDeformation& held, std::span<const double> temperature) {
   StructuralLead lead;
   for (const auto& points : held)

@@ -55,6 +55,8 @@ double volume_6(const Point& a, const Point& b, const Point& c, const Point& d) 
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
+/// 12 (3 V)^(2/3) over the sum of the squared edges (A. Liu, B. Joe 1994), with the sign of the volume: 1 for
+/// a regular tetrahedron, 0 for a flat one.
 double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double edges = squared(minus(b, a)) + squared(minus(c, a)) + squared(minus(d, a)) +
                        squared(minus(c, b)) + squared(minus(d, b)) + squared(minus(d, c));
@@ -132,6 +134,8 @@ double Tetrahedra::quality(const std::array<Index, 4>& n) const {
   return mean_ratio(x(n[0]), x(n[1]), x(n[2]), x(n[3]));
 }
 
+/// Old tetrahedra stay in the list as dead ones, so that numbers of others remain; new ones get new numbers
+/// in the input.
 void Tetrahedra::replace(const std::vector<std::size_t>& old, const std::vector<Tetrahedron>& made) {
   for (const std::size_t t : old) {
     alive_[t] = 0;
@@ -149,6 +153,7 @@ double quality(const Tetrahedra& tets, std::size_t t) {
   return tets.quality(tets[t].nodes);
 }
 
+/// The least quality of the tetrahedra at a node, by which a change there is judged.
 double quality_around(const Tetrahedra& tets, Index node) {
   double least = 1;
   for (const std::size_t t : tets.around(node)) least = std::min(least, quality(tets, t));

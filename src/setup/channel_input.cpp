@@ -44,6 +44,7 @@ std::vector<Position> read_corners(const cases::ChannelSpec& c, int dimension) {
   return corners;
 }
 
+/// A path has a file or lists, of as many coordinates as the analysis has, and no corner twice in a row.
 void check_path(const cases::ChannelSpec& c, int dimension) {
   const cases::ChannelPathSpec& p = c.path;
   const bool lists = !p.x.empty() || !p.y.empty() || !p.z.empty();
@@ -100,6 +101,7 @@ void check_dies(const cases::CaseSpec& spec) {
   check_die_lives(spec);
 }
 
+/// Refuses combinations that channels do not support, at their place in the case and before a mesh is read.
 void check_channels(const cases::CaseSpec& spec) {
   check_names(spec.channels, "[[channel]]");
   for (std::size_t i = 0; i < spec.channels.size(); ++i) {
@@ -124,6 +126,7 @@ void check_channels(const cases::CaseSpec& spec) {
   }
 }
 
+/// The corners of the centre line, from the file or from the lists.
 std::vector<Position> channel_path(const cases::ChannelSpec& channel, int dimension) {
   if (!channel.path.file.empty()) return read_corners(channel, dimension);
   std::vector<Position> corners(channel.path.x.size());
@@ -142,6 +145,8 @@ void add_channels(const cases::CaseSpec& spec, const cases::StageRun* stage,
     channel.diameter = c.diameter;
     channel.by_volume = c.flow.has_value();
     if (c.flow || c.mass_flow) {
+      // In stages that the channel does not name nothing flows. Tables follow the clock of the run or of the
+      // stage.
       const bool flows = cases::holds(c.stages, stage);
       channel.flow =
           flows ? PlaceFunction(cases::on_clock(c.flow ? *c.flow : *c.mass_flow, c.clock, stage)) : 0.0;

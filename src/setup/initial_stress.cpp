@@ -26,6 +26,8 @@ Components components_of(const cases::InitialStressSpec& s) {
   return {&s.xx, &s.yy, &s.zz, &s.xy, &s.yz, &s.xz};
 }
 
+/// Refuses bodies that cannot start with a stress (no mechanics, inertia, metal that is not solid), and input
+/// that is doubled or missing.
 void check(const cases::CaseSpec& spec, const cases::BodySpec& body, const material::Material& material,
            const InitialTemperatureRange& start) {
   const cases::InitialStressSpec& s = *body.initial_stress;
@@ -50,6 +52,7 @@ void check(const cases::CaseSpec& spec, const cases::BodySpec& body, const mater
     refuse("yz and xz are zero in this analysis", "xx, yy, zz, xy");
 }
 
+/// Elements have one stress: that of the mean of their vertices.
 std::vector<Position> middles(const mesh::Mesh& mesh, const mesh::ElementBlock& block) {
   std::vector<Position> x(as_size(block.size()));
   const int n = mesh::vertex_count(block.shape);
@@ -80,6 +83,7 @@ class StressFile {
       : read_(results::read_stress(s.file, s.field, s.body, s.length_unit.empty() ? 1.0 : in_metres(s),
                                    s.where)),
         nearest_(read_.x) {
+    // The unit of the case takes precedence over that of the file; a file without one is in pascals.
     const std::string unit = !s.unit.empty() ? s.unit : read_.unit.empty() ? "Pa" : read_.unit;
     try {
       conversion_ = units::conversion(unit, "Pa");
@@ -87,6 +91,7 @@ class StressFile {
       throw InputError(s.where, fmt::format("the unit of the stress: {}", error.what()));
     }
   }
+  /// The stress of the nearest place of the file, and how far away that was at most.
   std::vector<double> at(std::span<const Position> x) {
     std::vector<double> stress(6 * x.size());
     for (std::size_t e = 0; e < x.size(); ++e) {
@@ -117,6 +122,7 @@ class StressFile {
 void fill(const cases::InitialStressSpec& s, const mesh::Mesh& mesh, int body, AnalysisKind kind,
           std::vector<std::vector<double>>& stress) {
   std::optional<StressFile> file;
+  // A file that only one process cannot read has to end the run on all of them.
   run_collectively([&] {
     if (!s.file.empty()) file.emplace(s);
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {

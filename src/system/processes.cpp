@@ -14,6 +14,7 @@ namespace solidus::processes {
 
 namespace {
 
+/// The communicator of all calls: that of the world, or the one a Python program hands over.
 MPI_Comm& all_processes() {
   static MPI_Comm all = MPI_COMM_WORLD;
   return all;
@@ -78,6 +79,7 @@ double wall_time() {
   return MPI_Wtime();
 }
 
+/// A barrier with a limit of time: a process that failed alone must not leave the others waiting for ever.
 bool all_arrive(double seconds) {
   MPI_Request everybody = MPI_REQUEST_NULL;
   MPI_Ibarrier(all_processes(), &everybody);
@@ -92,6 +94,7 @@ bool all_arrive(double seconds) {
 void abort(int code) {
   MPI_Abort(all_processes(), code);
 }
+/// Sends the size first, then the bytes in pieces.
 void send(std::span<const char> bytes, int to) {
   unsigned long long size = bytes.size();
   MPI_Send(&size, 1, MPI_UNSIGNED_LONG_LONG, to, 0, all_processes());
@@ -138,6 +141,7 @@ std::int64_t sum_before(std::int64_t mine) {
   return rank() == 0 ? 0 : before;  // where MPI leaves it undefined
 }
 
+/// The largest number and the process that has it; the lowest of several.
 Largest find_largest(double mine) {
   Largest own{mine, rank()}, all{};
   MPI_Allreduce(&own, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, all_processes());
@@ -169,6 +173,7 @@ std::vector<std::int64_t> gather(std::int64_t mine) {
   MPI_Allgather(&mine, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, all_processes());
   return all;
 }
+/// As gather(), on the first process alone: the others get nothing.
 std::vector<double> gather_on_first(std::span<const double> mine) {
   const Pieces pieces(mine.size());
   std::vector<double> all(rank() == 0 ? pieces.total() : 0);

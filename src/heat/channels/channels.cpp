@@ -24,6 +24,7 @@ constexpr double k_pi = std::numbers::pi;
 /// below zero, by elements that show the wall colder than it is, must not turn it around.
 constexpr double k_least_resistance = 0.25;
 
+/// Channels of two stages that share their line, so that its geometry is built once.
 bool same_line(const Channel& a, const Channel& b) {
   return a.body == b.body && a.path == b.path && a.diameter == b.diameter;
 }
@@ -41,6 +42,8 @@ int body_number(const mesh::Mesh& mesh, const Channel& channel) {
 
 void Channels::set(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active, bool closed,
                    const ThermalConditions& conditions) {
+  // A new stage may change flows and inlets. Lines of channels that stay are taken over, because the discrete
+  // problem around each of them costs a solution.
   std::vector<One> before = std::exchange(channels_, {});
   order_.clear();
   for (const Channel& channel : conditions.channels) {
@@ -59,6 +62,7 @@ void Channels::set(const mesh::Mesh& mesh, AnalysisKind kind, const linear::Acti
       logging::debug("channel '{}': {} stations in elements of {:.3g} mm", channel.name,
                      one.line->stations().size(), 1e3 * one.line->element_size());
     }
+    // A channel that follows another one is marched after it: the reader has put it behind that one.
     for (std::size_t k = 0; k + 1 < channels_.size(); ++k)
       if (channels_[k].channel.name == channel.after) one.before = k + 1;
     const std::size_t n = one.line ? one.line->stations().size() : 0;
@@ -69,6 +73,7 @@ void Channels::set(const mesh::Mesh& mesh, AnalysisKind kind, const linear::Acti
 }
 
 void Channels::set_window(const LoadWindow& window) {
+  // Upstream channels come first, so that what follows them finds their flow.
   for (const std::size_t k : order_) {
     One& one = channels_[k];
     if (one.before > 0) {  // it has what comes out of the one before
@@ -180,6 +185,8 @@ void Channels::mix(One& one, const std::vector<double>& guess) {
 
 bool Channels::follow(std::span<const double> temperature, std::span<const KirchhoffPotential> potentials,
                       double tolerance) {
+  // One iteration: march all channels with the present temperatures, compare the fluid with the guess, and
+  // mix the next guess where the two differ.
   std::vector<std::vector<double>> guesses;
   for (const One& one : channels_) guesses.push_back(one.fluid.temperature);
   march_all(temperature, potentials);
@@ -192,6 +199,8 @@ bool Channels::follow(std::span<const double> temperature, std::span<const Kirch
   return false;
 }
 
+/// Equation (c) of docs/theory/channels.md: each node gives heat by its own temperature, which goes to the
+/// fluid of its station.
 void Channels::add_residual(std::span<const double> temperature, std::span<double> out, double& moved) {
   for (One& one : channels_) {
     one.power = 0;
@@ -206,6 +215,7 @@ void Channels::add_residual(std::span<const double> temperature, std::span<doubl
   }
 }
 
+/// The exchange is on the diagonal alone: the matrix stays symmetric and of non-negative type.
 void Channels::add_tangent(linear::BlockMatrix& matrix) const {
   for (const One& one : channels_)
     for (std::size_t i = 0; i < one.conductance.size(); ++i)
@@ -223,6 +233,7 @@ void Channels::add_supply(std::span<const double> temperature, std::span<double>
     }
 }
 
+/// The inlets bound the temperatures that channels can cause.
 TemperatureRange Channels::ambient() const {
   TemperatureRange range;
   for (const One& one : channels_) {

@@ -12,6 +12,7 @@ ConductionElements::ConductionElements(const mesh::Mesh& mesh, AnalysisKind kind
                                        bool correct_edges, bool pattern_stays,
                                        const std::vector<material::Material>& materials)
     : mesh_(mesh), kind_(kind), closed_(closed), pattern_stays_(pattern_stays), active_(mesh) {
+  // Factors of re-entrant edges are needed by the blocks, which are built at their first use.
   if (correct_edges) edges_ = EdgeConduction(mesh);
   for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
   fields_.resize(materials.size());
@@ -22,6 +23,7 @@ ConductionElements::ConductionElements(const mesh::Mesh& mesh, AnalysisKind kind
 }
 
 void ConductionElements::set_active(const linear::ActiveSet& active) {
+  // Bodies that have left give back the memory of their elements, and their nodes are no longer evaluated.
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     if (!active.body(mesh_.blocks[b].body)) blocks_[b].reset();
   for (std::size_t body = 0; body < fields_.size(); ++body) {
@@ -38,6 +40,7 @@ void ConductionElements::set_shares(std::size_t block, std::vector<double> share
 }
 
 void ConductionElements::find_field_nodes(std::size_t body) {
+  // A constant conductivity needs no values at nodes: it is a factor of the block.
   if (potentials_[body].constant()) return;
   std::vector<char> of_body(mesh_.x.size(), 0);
   for (const mesh::ElementBlock& block : mesh_.blocks)
@@ -56,6 +59,7 @@ void ConductionElements::bind(linear::BlockMatrix& matrix) {
 }
 
 ConductionBlock& ConductionElements::block(std::size_t number) {
+  // Geometry, factors of growth and places in the matrix are set once for each block.
   if (!blocks_[number]) {
     blocks_[number] = make_conduction_block(mesh_, mesh_.blocks[number], kind_, closed_, edges_);
     if (!shares_[number].empty()) blocks_[number]->set_shares(shares_[number]);

@@ -17,6 +17,7 @@ void KeptConduction::bind(linear::BlockMatrix& matrix) {
   forget();
 }
 
+/// Limits belong to a matrix: with them switched on or off it is assembled again.
 void KeptConduction::limit(bool on) {
   if (on == (limiter_ != nullptr)) return;
   limiter_.reset();
@@ -30,6 +31,8 @@ void KeptConduction::forget() {
 }
 
 void KeptConduction::keep() {
+  // With one body the sum is built in the matrix itself; with several it needs an array of its own, since the
+  // matrix holds one body at a time.
   if (kept()) return;
   const auto n = as_size(matrix_->row_start().back());
   find_node_bodies();
@@ -79,10 +82,13 @@ void KeptConduction::find_shared_pairs(int body) {
   }
 }
 
+/// Whether all other terms of the matrix are on its diagonal, so that conduction can stay in the matrix from
+/// iteration to iteration.
 bool KeptConduction::only_diagonal_beside() const {
   return !apart_ && others_diagonal_ && !(limiter_ && limiter_->needed());
 }
 
+/// Copies conduction out of the matrix, which other terms are going to fill.
 void KeptConduction::keep_apart() {
   apart_ = true;
   if (diagonal_.empty()) return;
@@ -138,6 +144,7 @@ std::span<double> KeptConduction::flow(std::span<const double> temperature) {
     }
     flow_[i] += sum;
   }
+  // Pairs of nodes that both belong to several bodies: each body has its own conductance and potential there.
   for (const SharedPair& pair : shared_) {
     const auto i = as_size(pair.i), j = as_size(pair.j), b = as_size(pair.body);
     const double k = pair.k * potentials[b].reference();

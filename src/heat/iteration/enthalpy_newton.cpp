@@ -57,6 +57,7 @@ void EnthalpyNewton::evaluate(std::span<const double> temperature) {
   sums_.round_off = k_round_off * (parallel::global_sum(contents) + sums_.conductance);
 }
 
+/// The temperature at an enthalpy; a tilted plateau rises by a small slope, so that it has an inverse.
 double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
   const double t = storage_.temperature(as_index(i), heat);
   return plateaus_.tilt > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
@@ -71,6 +72,8 @@ void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
   evaluate(temperature);
 }
 
+/// The residual is small compared with the heat that moves, or has reached rounding. With a tilt the
+/// equations are not yet those of the step.
 bool EnthalpyNewton::converged() const {
   if (plateaus_.tilt > 0) return false;
   return sums_.unbalanced <= tolerance_ * sums_.moved || sums_.unbalanced <= sums_.round_off;
@@ -98,11 +101,14 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
   sums_.conductance = parallel::global_sum(conductance);
 }
 
+/// Temperatures of nodes on a plateau and of prescribed ones do not change in this iteration.
 void EnthalpyNewton::hold(std::span<double> step_t) const {
   for (std::size_t i = 0; i < step_t.size(); ++i)
     if (inverse_[i] == 0.0 || system_.parts().prescribed.fixed()[i]) step_t[i] = 0.0;
 }
 
+/// The change of enthalpy that belongs to a step of temperatures: by the slope of the table, and for nodes on
+/// a plateau by what the balance of their heat leaves.
 void EnthalpyNewton::enthalpy_step(std::span<const double> step_t, std::span<const double> further) {
   system_.matrix().multiply(step_t, step_h_);
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -114,6 +120,7 @@ void EnthalpyNewton::enthalpy_step(std::span<const double> step_t, std::span<con
   }
 }
 
+/// Enthalpies go a part alpha of the step; temperatures follow from them, so that both agree at every node.
 void EnthalpyNewton::move(std::span<const double> start, double alpha, std::span<double> temperature) {
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (system_.parts().prescribed.fixed()[i]) continue;
@@ -122,6 +129,8 @@ void EnthalpyNewton::move(std::span<const double> start, double alpha, std::span
   }
 }
 
+/// Plateaus are tilted when the plain iteration takes long; the tilt falls each time that the tilted
+/// equations are nearly solved, and goes at its least value.
 void EnthalpyNewton::adapt_tilt(int iteration, std::span<double> temperature) {
   if (plateaus_.any && iteration == k_plain) {
     set_tilt(k_tilt, temperature);

@@ -66,6 +66,7 @@ void BodySources::add_nodal_shares(const Where& where, int body, Volume& volume)
   // The share of a node is the integral of its shape function over the body, or the lumped weight where heat
   // is stored at the nodes.
   std::vector<double> weight(as_size(where.mesh.n_owned_nodes), 0.0);
+  // Weights are computed for eight elements at a time; only nodes of this process are kept.
   for (const mesh::ElementBlock& block : where.mesh.blocks) {
     if (block.body != body || !where.active.body(body)) continue;
     const PackVector<Lane> weights = where.at_nodes[as_size(body)] != 0
@@ -121,6 +122,8 @@ void BodySources::place(const Where& where, int body, Volume& volume) {
                                              std::move(cells), std::move(points), std::move(shares));
 }
 
+/// The mean power of the step: from the points of the source where it depends on place, else one mean for all
+/// nodes.
 void BodySources::Volume::set_window(const LoadWindow& window) {
   if (load) {
     load->set(window);
@@ -132,6 +135,8 @@ void BodySources::Volume::set_window(const LoadWindow& window) {
   for (const Share& share : shares) heat[as_size(share.node)] += (mean[0] - mean[1]) * share.weight;
 }
 
+/// The heat of a step is that of the fraction which burns between what was released before and the end of the
+/// step.
 void BodySources::Volume::burn(const BurningState& state, double begin, double end) {
   std::fill(heat.begin(), heat.end(), 0.0);
   if (state.lit.empty()) return;
@@ -152,6 +157,7 @@ void BodySources::set_window(const LoadWindow& window) {
     if (!source.burning) source.set_window(window);
 }
 
+/// The longest step over which every source that depends on place keeps its form.
 double BodySources::lasting(double from, double to) const {
   double longest = HUGE_VAL;
   for (const Volume& source : sources_)
@@ -176,6 +182,7 @@ void BodySources::add_residual(std::span<double> out, double& moved) {
   }
 }
 
+/// The least and the greatest heat of a node, for the bounds of temperature.
 std::pair<double, double> BodySources::heat_range() const {
   std::pair<double, double> range{0.0, 0.0};
   for (const Volume& source : sources_)
@@ -186,6 +193,7 @@ std::pair<double, double> BodySources::heat_range() const {
   return range;
 }
 
+/// Heat that sources bring to nodes and take from them, each as a positive number.
 void BodySources::add_supply(std::span<double> gain, std::span<double> loss) const {
   for (const Volume& source : sources_)
     for (std::size_t i = 0; i < source.heat.size(); ++i)

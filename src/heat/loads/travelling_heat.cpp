@@ -38,6 +38,7 @@ std::optional<Position> part_across(const Position& of, const Position& d) {
 TravellingHeat::TravellingHeat(std::shared_ptr<const TravelPath> path, const TravellingShape& shape,
                                Table efficiency, double step_share)
     : path_(std::move(path)), shape_(shape), efficiency_(std::move(efficiency)), step_share_(step_share) {
+  // Beyond the reach nothing is evaluated; a beam on a surface has no end along its axis.
   const double flat = shape.kind == TravellingShape::Kind::double_ellipsoid
                           ? std::max({shape.width, shape.front, shape.rear, shape.depth})
                           : shape.radius;
@@ -45,6 +46,7 @@ TravellingHeat::TravellingHeat(std::shared_ptr<const TravelPath> path, const Tra
   if (shape.kind == TravellingShape::Kind::gaussian) reach_ = HUGE_VAL;  // along its axis
 }
 
+/// The moving frame: where the source is, the direction of travel across its axis, and the one across both.
 TravellingHeat::Frame TravellingHeat::frame(double time) const {
   Frame f;
   f.centre = path_->at(time);
@@ -60,6 +62,8 @@ TravellingHeat::Frame TravellingHeat::frame(double time) const {
   return f;
 }
 
+/// The distributions of docs/theory/growth.md for a power of one, at distances along travel, across it and
+/// along the axis.
 double TravellingHeat::density(double xi, double eta, double zeta) const {
   using Kind = TravellingShape::Kind;
   constexpr double k_pi = std::numbers::pi;
@@ -119,6 +123,7 @@ void TravellingHeat::add_spots(double time, std::vector<PlaceSpot>& spots) const
     return;
   }
   constexpr int k_most = 32;
+  // A deep source gets a spot for about every two radii of depth, so that each part of it is integrated.
   const double depth = shape_.kind == Kind::gaussian ? 0 : shape_.depth;
   const int n = std::clamp(static_cast<int>(std::ceil(0.5 * depth / shape_.radius)), 1, k_most);
   for (int i = 0; i < n; ++i) add(shape_.direction, depth * (i + 0.5) / n, shape_.radius);

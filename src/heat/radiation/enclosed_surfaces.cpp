@@ -100,6 +100,8 @@ void EnclosedSurfaces::set(const mesh::Mesh& mesh, AnalysisKind kind, const line
       1e-6 * static_cast<double>(enclosure_->bytes()), f.corrected);
 }
 
+/// The irradiation that follows from temperatures: the emissivities of the surfaces and the surroundings are
+/// those of their conditions.
 std::vector<double> EnclosedSurfaces::following(SurfaceHeats& surfaces, std::span<const double> temperature) {
   std::vector<EnclosureSurface> laws;
   for (const std::size_t s : numbers_) {
@@ -109,6 +111,7 @@ std::vector<double> EnclosedSurfaces::following(SurfaceHeats& surfaces, std::spa
   return enclosure_->irradiation(temperature, laws);
 }
 
+/// Gives the irradiation of the clusters to the nodes of each surface.
 void EnclosedSurfaces::tell(SurfaceHeats& surfaces) {
   const std::vector<std::vector<double>> at_nodes = enclosure_->at_nodes(falling_);
   for (std::size_t k = 0; k < numbers_.size(); ++k) surfaces.each()[numbers_[k]].irradiate(at_nodes[k]);
@@ -120,6 +123,8 @@ void EnclosedSurfaces::begin(SurfaceHeats& surfaces, std::span<const double> tem
   tell(surfaces);
 }
 
+/// One fixed-point iteration: true where the irradiation has changed by less than the tolerance, else the
+/// next guess is a mixture of earlier ones.
 bool EnclosedSurfaces::follow(SurfaceHeats& surfaces, std::span<const double> temperature, double tolerance) {
   std::vector<double> next = following(surfaces, temperature);
   // Differences of fourth roots are temperatures of what a cluster seems to stand in.
@@ -139,6 +144,7 @@ bool EnclosedSurfaces::follow(SurfaceHeats& surfaces, std::span<const double> te
   return settled;
 }
 
+/// Anderson's method: the combination of the last iterations whose residuals nearly cancel.
 std::vector<double> EnclosedSurfaces::mixed() const {
   const Iteration& last = iterations_.back();
   // The newest differences stand first: older ones that say the same are left out.

@@ -36,6 +36,7 @@ std::vector<Sent> faces_here(const mesh::Mesh& mesh, AnalysisKind kind, const me
                              int number, std::vector<char>& counted) {
   std::vector<Sent> sent;
   for (const mesh::ElementBlock& faces : surface.faces) {
+    // Normal and area are integrals over the face, which may be curved.
     const mesh::FaceGeometry g(mesh, faces, kind,
                                mesh::gauss_rule(faces.shape, 2 * mesh::order(faces.shape) + 1));
     const int n = mesh::vertex_count(faces.shape);
@@ -63,6 +64,7 @@ std::vector<Sent> faces_here(const mesh::Mesh& mesh, AnalysisKind kind, const me
   return sent;
 }
 
+/// A face from its numbers as they were sent.
 RadiatingFace face_of(const double* s) {
   RadiatingFace face;
   face.surface = static_cast<int>(s[0]);
@@ -113,6 +115,8 @@ class Clustering {
     clusters_.push_back(std::move(members));
     measure(clusters_.size() - 1);
   }
+  /// Puts a cluster into the queue by its largest extent; a single face, or faces at one place, cannot be
+  /// divided.
   void measure(std::size_t cluster) {
     if (clusters_[cluster].size() < 2) return;
     const auto [axis, width] = widest_axis(cluster);
@@ -130,6 +134,8 @@ class Clustering {
       if (high[i] - low[i] > high[axis] - low[axis]) axis = i;
     return {axis, high[axis] - low[axis]};
   }
+  /// Divides the widest cluster at the median of its faces along its widest direction. Faces of equal
+  /// coordinates are ordered by their number, so that every process finds the same clusters.
   void halve() {
     const auto cluster = static_cast<std::size_t>(-widest_.top().second);
     widest_.pop();
@@ -156,6 +162,7 @@ class Clustering {
 
 RadiatingFaces radiating_faces(const mesh::Mesh& mesh, AnalysisKind kind,
                                std::span<const mesh::Surface> surfaces, std::size_t most_clusters) {
+  // Each process sends the faces that it counts; the others it needs only to find their numbers.
   std::vector<std::vector<Sent>> here;
   std::vector<double> mine;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
@@ -178,6 +185,8 @@ RadiatingFaces radiating_faces(const mesh::Mesh& mesh, AnalysisKind kind,
     std::copy(key.begin() + 1, key.end(), nodes.begin());
     if (!nodes_of.insert(nodes).second) faces.twice = faces.all.back().middle;
   }
+  // A face of two surfaces would radiate twice: its place is returned for the message. Then the faces of this
+  // process get the numbers that they have on all.
   for (const std::vector<Sent>& surface : here) {
     std::vector<std::size_t>& numbers = faces.of_surface.emplace_back();
     for (const Sent& face : surface) numbers.push_back(number.at(key_of(face.data())));

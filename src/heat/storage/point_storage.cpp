@@ -10,6 +10,7 @@ namespace solidus::heat {
 
 namespace {
 
+/// The degree of the quadrature of heat: products of two shape functions are exact in straight elements.
 int default_degree(mesh::Shape shape) {
   if (mesh::order(shape) == 1) return 3;
   return shape == mesh::Shape::tri6 || shape == mesh::Shape::tet10 ? 4 : 5;
@@ -33,6 +34,7 @@ class Storage final : public PointStorage {
 
   void start(std::span<const double> old_temperature, double dt) override {
     dt_ = dt;
+    // The enthalpy of each point at the start of the stage; printed forms need its temperature too.
     if (form_ != SensibleForm::enthalpy) old_temperature_.resize(old_.size());
     for_points(old_temperature, [&](Index, int, std::size_t at, Lane t) {
       old_[at] = enthalpy(t);

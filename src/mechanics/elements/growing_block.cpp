@@ -16,6 +16,8 @@ GrowingBlock::GrowingBlock(mesh::Shape shape, int components, std::unique_ptr<Bl
       kernel_(std::move(kernel)),
       fields_(std::move(fields)) {}
 
+/// Called when the elements are activated: the list of their nodes, and where each element finds its own in
+/// it.
 void GrowingBlock::come(const mesh::ElementBlock& block) {
   there_ = true;
   nodes_ = block.nodes;
@@ -28,6 +30,8 @@ void GrowingBlock::come(const mesh::ElementBlock& block) {
   old_.assign(nodes_.size() * components_, 0.0);
 }
 
+/// How many lanes of the history the kernel has at a point, and how many follow for the numbers of
+/// activation.
 const GrowingBlock::Layout& GrowingBlock::layout() const {
   if (layout_.points > 0) return layout_;
   const BlockHistory history = kernel_->initial_history();
@@ -38,6 +42,7 @@ const GrowingBlock::Layout& GrowingBlock::layout() const {
   return layout_;
 }
 
+/// Copies the part of a history that the kernel knows.
 void GrowingBlock::strip(const BlockHistory& from, BlockHistory& to) const {
   const Layout& l = layout();
   const std::size_t n = from.values.size() / l.all();  // points of all batches
@@ -48,6 +53,7 @@ void GrowingBlock::strip(const BlockHistory& from, BlockHistory& to) const {
     std::copy_n(from.values.data() + i * l.all(), l.kernel, to.values.data() + i * l.kernel);
 }
 
+/// The reverse of strip(): the kernel's part goes back between the numbers of activation.
 void GrowingBlock::spread(const BlockHistory& from, BlockHistory& to) const {
   const Layout& l = layout();
   const std::size_t n = from.values.size() / l.kernel;
@@ -95,6 +101,8 @@ BlockHistory GrowingBlock::initial_history() const {
   return history;
 }
 
+/// The history with which the elements begin: displacement, temperature and volumetric strain of phase
+/// changes of their nodes at this moment.
 BlockHistory GrowingBlock::born_at(const BirthFields& fields) const {
   std::vector<double> birth;
   for (const Index node : nodes_) {
@@ -108,6 +116,7 @@ BlockHistory GrowingBlock::born_at(const BirthFields& fields) const {
   return history;
 }
 
+/// Displacements since the activation of these elements, at their nodes alone.
 std::span<const double> GrowingBlock::shift(std::span<const double> u, std::vector<double>& to) const {
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     for (std::size_t k = 0; k < components_; ++k) {
@@ -117,6 +126,7 @@ std::span<const double> GrowingBlock::shift(std::span<const double> u, std::vect
   return to;
 }
 
+/// Blocks share the arrays of fields: each writes the values of its own nodes before its kernel reads them.
 void GrowingBlock::enter() const {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const auto i = as_size(nodes_[n]);
@@ -126,6 +136,8 @@ void GrowingBlock::enter() const {
   }
 }
 
+/// The start of a step as the kernel has to see it: strain, temperature and volumetric strain counted from
+/// the activation. Displacements and histories that are the same object remain the same object.
 StepStart GrowingBlock::since_birth(const StepStart& start) const {
   enter();
   StepStart since = start;

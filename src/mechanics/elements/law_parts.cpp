@@ -44,6 +44,7 @@ void put_common(ElementField which, const Values& values, double* to) {
   }
 }
 
+/// Copies the strains that a state holds; flow stress and back stress follow from the properties.
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic::State<Lane>& state) {
   ViscoplasticValues<Lane> v;
   v.viscous_strain = state.viscous_strain;
@@ -79,6 +80,8 @@ std::vector<std::size_t> one_at_least(std::vector<std::size_t> lanes) {
 std::vector<std::size_t> kept_lanes(const material::Material& material) {
   using State = material::Viscoplastic::State<Lane>;
   std::vector<std::size_t> lanes;
+  // Strains that this material cannot have are not stored: viscous strain needs a melt, back strain kinematic
+  // hardening, the entropy of flow a yield stress that depends on temperature.
   if (material.solidification() != nullptr) append_lanes(&State::viscous_strain, lanes);
   if (!material.flow) return one_at_least(std::move(lanes));
   append_lanes(&State::plastic_strain, lanes);
@@ -124,6 +127,7 @@ ViscoplasticValues<Lane> values_of(const material::Isentropic& law,
   ViscoplasticValues<Lane> v = values_of(state);
   if (!law.material().flow) return v;
   const material::Flow& flow = *law.material().flow;
+  // The mapping has found the temperature of the point; flow and hardening are taken there.
   const auto at = law.at_temperature(p, temperature).flow;
   const Lane strength = law.isothermal().shear(elastic_part(law, p), 1.0).strength;  // of f_S, frozen
   const auto hardening = hardening_stress<J>(flow.isotropic, flow.curves, at, J(state.hardening));

@@ -75,12 +75,15 @@ void NodalPressure::begin() {
   if (projection_) projection_->begin();
 }
 
+/// Writes pressures in pascals for the kernels, and clears what they are about to sum.
 void NodalPressure::set(std::span<const double> unknowns) {
   for (std::size_t i = 0; i < pressure_.size(); ++i) pressure_[i] = unit_ * unknowns[i];
   std::fill(volume_residual_.begin(), volume_residual_.end(), 0.0);
   std::fill(volume_change_.begin(), volume_change_.end(), 0.0);
 }
 
+/// The residual of the volume equation in the unit of the pressure: sums of the kernels, and the projection
+/// of the stabilisation.
 void NodalPressure::residual(std::span<double> r, BodyBalance& balance) {
   if (projection_) projection_->add(pressure_, 1.0, volume_residual_);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] = absent_[i] ? 0.0 : -unit_ * volume_residual_[i];
@@ -89,6 +92,8 @@ void NodalPressure::residual(std::span<double> r, BodyBalance& balance) {
   balance.add_volume_change(std::span<const double>(volume_change_).first(r.size()), fields_.n_fields);
 }
 
+/// The unit is the mean of 2Ĝ over the length of an element, the root of the mean volume of a node: with it
+/// both diagonal blocks of the saddle point are of one size.
 void NodalPressure::find_unit() {
   std::array<double, 2> sums{0, 0};
   for (const MixedKernel* kernel : kernels_) {
@@ -115,6 +120,7 @@ PressureProjection::PressureProjection(const mesh::Mesh& mesh, const parallel::G
       fields_(fields),
       weight_(mesh.x.size() * as_size(fields)) {}
 
+/// The weights of the nodal mean of gradients, whose difference from the gradient is penalised.
 void PressureProjection::begin() {
   std::fill(weight_.begin(), weight_.end(), 0.0);
   for (const MixedKernel* kernel : kernels_) kernel->add_projection_weight(weight_);
@@ -131,6 +137,7 @@ void PressureProjection::add(std::span<const double> p, double factor, std::span
   for (const MixedKernel* kernel : kernels_) kernel->add_projected(gradient_, out);
 }
 
+/// The same as an operator on unknowns of owned nodes, for the product with the matrix.
 void PressureProjection::add_owned(std::span<const double> x, double factor, const std::vector<char>& absent,
                                    std::span<double> y) {
   local_.resize(weight_.size());
@@ -152,6 +159,7 @@ std::size_t PressureProjection::bytes() const {
   return total;
 }
 
+/// Pressures in pascals become unknowns in the unit of the matrix.
 void to_unknowns(const NodalPressure& of, std::span<const double> pressure, std::span<double> unknowns) {
   std::fill(unknowns.begin(), unknowns.end(), 0.0);
   assert(pressure.empty() || pressure.size() == of.absent().size());

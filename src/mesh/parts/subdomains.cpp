@@ -43,6 +43,7 @@ std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bo
     for (int a = 1; a < nn; ++a) lowest = std::min(lowest, whole_.number[as_size(element[a])]);
     order[as_size(e)] = {lowest, e};
   }
+  // Sorted by their lowest node, then by their number, so that any partition gives the same order.
   std::sort(order.begin(), order.end());
 
   std::vector<Elements> of_process(as_size(n_processes));
@@ -56,6 +57,7 @@ std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bo
       if (whole_.number[as_size(element[a])] == lowest) counting = owner;
       if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
     }
+    // Surfaces of contact are held by every process.
     if (for_all) {
       owners.resize(as_size(n_processes));
       for (int p = 0; p < n_processes; ++p) owners[as_size(p)] = p;
@@ -66,6 +68,7 @@ std::vector<Subdomains::Elements> Subdomains::sort_out(const RawBlock& block, bo
   return of_process;
 }
 
+/// The node sets of each node, as a compressed list: counts, then their sums, then the sets.
 void Subdomains::find_sets() {
   first_set_.assign(raw_.x.size() + 1, 0);
   for (const auto& [name, nodes] : whole_.node_sets)
@@ -117,6 +120,8 @@ std::size_t Subdomains::element_bytes(int process) const {
   return bytes;
 }
 
+/// Writes the elements of a process, counted ones first, with local node numbers, and forgets its list of
+/// them.
 void Subdomains::put_block(const RawBlock& block, int body, Elements& elements, Packer& p) const {
   const std::size_t nn = as_size(node_count(block.shape));
   const std::size_t n_elements = elements.counted.size() + elements.others.size();

@@ -44,6 +44,7 @@ std::map<std::string, std::vector<ElementBlock>> others_of(const Mesh& mesh,
   for (std::size_t n = unpacker.size(); n > 0; --n) {
     const std::string name = unpacker.string();
     ElementBlock block{static_cast<Shape>(unpacker.size()), -1, {}, {}, 0};
+    // Numbers of the input lead to local nodes; the table is made where there is a group at all.
     if (local.empty())
       for (Index i = 0; i < mesh.n_nodes(); ++i) local.emplace(mesh.input_node[as_size(i)], i);
     const auto nodes = unpacker.vector<GlobalIndex>();
@@ -63,6 +64,7 @@ std::map<std::string, std::vector<ElementBlock>> others_of(const Mesh& mesh,
   return others;
 }
 
+/// Whether all elements are of first order: those of second order have their shape already.
 bool is_linear(const Mesh& mesh) {
   return std::ranges::all_of(mesh.blocks, [](const ElementBlock& b) { return order(b.shape) == 1; });
 }
@@ -88,6 +90,7 @@ std::vector<OtherGroup> prepare_refinement(RawMesh& raw, const std::vector<std::
     raw.input_node.resize(raw.x.size());
     for (std::size_t i = 0; i < raw.x.size(); ++i) raw.input_node[i] = static_cast<GlobalIndex>(i) + 1;
   }
+  // Groups that are neither bodies nor their surfaces, such as edges, are kept by the numbers of their nodes.
   std::vector<OtherGroup> others;
   for (const auto& [name, group] : raw.groups) {
     const bool is_body = std::ranges::find(bodies, name) != bodies.end();
@@ -141,6 +144,8 @@ Mesh refine(Mesh mesh, const Refinement& refinement, const std::vector<OtherGrou
   const bool curved = refinement.curved && is_linear(mesh);
   if (curved) part.skin = skin_faces(mesh);
   part.mesh = std::move(mesh);
+  // Each level halves all edges. New nodes lie on arcs through their neighbours where the surface is curved,
+  // as far as no element is turned over by it.
   for (int i = 0; i < refinement.times; ++i) {
     Level level(part);
     const Sharing sharing(level);

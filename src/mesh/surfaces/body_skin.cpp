@@ -15,6 +15,7 @@ namespace solidus::mesh {
 
 namespace {
 
+/// The number of faces of all elements, those between two elements counted twice.
 std::size_t count_faces(const RawGroup& group) {
   std::size_t n = 0;
   for (const RawBlock& block : group.blocks)
@@ -66,6 +67,7 @@ class RayCount {
   }
 
  private:
+  /// The bounds of a face in the plane across the ray.
   struct Shadow {
     static constexpr double k_none = std::numeric_limits<double>::max();
     std::array<double, 2> low{k_none, k_none}, high{-k_none, -k_none};
@@ -74,6 +76,7 @@ class RayCount {
     }
   };
 
+  /// Whether the half-line meets an edge of a plane body: both lines' parameters from a 2 × 2 system.
   int crosses_edge(const Point& x, const OuterFace& edge) const {
     const Point& p = point_of(mesh_, edge.nodes[0]);
     const Point u = difference(point_of(mesh_, edge.nodes[1]), p), w = difference(p, x);
@@ -110,6 +113,8 @@ class RayCount {
 }  // namespace
 
 std::vector<Face> outer_faces(const RawMesh& mesh, const std::string& body) {
+  // Faces are equal where their vertices are; the numbers of equal sets are found by sorting. What two
+  // elements have is inside, what one has alone is outside.
   std::vector<VertexSet> sets;
   sets.reserve(count_faces(mesh.groups.at(body)));
   for_each_face(mesh, body,

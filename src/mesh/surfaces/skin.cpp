@@ -30,6 +30,7 @@ Point along(const Point& a, const Point& direction, double s) {
   return {a[0] + s * direction[0], a[1] + s * direction[1], a[2] + s * direction[2]};
 }
 
+/// The foot of the perpendicular from p, or the end that is nearer.
 Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
   const Point d = b - a;
   const double square = dot(d, d);
@@ -40,6 +41,8 @@ Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
 Point nearest_on_triangle(const Point& a, const Point& b, const Point& c, const Point& p) {
   const Point ab = b - a, ac = c - a, ap = p - a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  // Each test finds the region of a corner or of an edge; a point that is in none of them lies above the
+  // triangle.
   if (d1 <= 0 && d2 <= 0) return a;
   const Point bp = p - b;
   const double d3 = dot(ab, bp), d4 = dot(ac, bp);
@@ -57,6 +60,7 @@ Point nearest_on_triangle(const Point& a, const Point& b, const Point& c, const 
   return along(along(a, ab, vb / sum), ac, vc / sum);
 }
 
+/// Sets centre, area and unit normal of a face from its corners; a line has its length as area.
 void measure(SkinFace& face) {
   const std::vector<Point>& x = face.corners;
   face.centre = {};
@@ -114,6 +118,7 @@ Point nearest_on_face(const SkinFace& face, const Point& p) {
   if (x.size() == 2) return nearest_on_segment(x[0], x[1], p);
   const Point first = nearest_on_triangle(x[0], x[1], x[2], p);
   if (x.size() == 3) return first;
+  // A quadrilateral is taken as two triangles.
   const Point second = nearest_on_triangle(x[0], x[2], x[3], p);
   return length(first - p) <= length(second - p) ? first : second;
 }
@@ -131,6 +136,7 @@ double mean_edge(const std::vector<SkinFace>& faces) {
 
 SkinSearch::SkinSearch(const std::vector<SkinFace>& faces, double reach)
     : faces_(faces), reach_(reach), size_(std::max(2 * reach, mean_edge(faces))) {
+  // A face is entered in each cell that it can be reached from, so that a search needs one cell only.
   for (std::size_t f = 0; f < faces.size(); ++f) {
     Point low = faces[f].corners[0], high = low;
     for (const Point& p : faces[f].corners)
@@ -173,6 +179,7 @@ std::optional<SkinSearch::Found> SkinSearch::nearest(const Point& point) const {
   return best;
 }
 
+/// Points of a face at which its gap is measured: away from its corners, which it shares with neighbours.
 std::vector<Point> sample_points(const SkinFace& face) {
   const std::vector<Point>& x = face.corners;
   const auto towards = [&](const Point& corner, double share) {
@@ -207,6 +214,7 @@ void add_surface(RawMesh& mesh, const std::string& name, const std::vector<const
     throw InputError({source}, "the mesh has a group '" + name + "' already, where one is to be made",
                      "another name of the body or of that group");
   RawGroup group{mesh.dimension - 1, {}};
+  // One block for each shape of faces; faces have no number of their own in the input.
   for (const SkinFace* face : faces) {
     auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
                               [&](const RawBlock& b) { return b.shape == face->shape; });
