@@ -114,17 +114,18 @@ Section<DepositionSpec> deposition_keys() {
   using D = DepositionSpec;
   Section<D> s("deposition",
                "A body that is deposited element by element, at its initial temperature: each element takes "
-               "part from its birth on, and is then free of stress where it comes to lie.");
+               "part from its activation on, and is then free of stress in its deformed place.");
   s.key("name", &D::name).doc("A name of your choice.");
   s.key("body", &D::body).doc("Group of the mesh: the body that grows.");
-  s.choice("kind", &D::kind,
-           {{"front", D::Kind::front,
-             "an element is born when a moving plane reaches its centre; elements behind the plane at its "
-             "start exist from the start"},
-            {"path", D::Kind::path,
-             "when the point that follows a path passes its centre, within `width` and `depth`"},
-            {"times", D::Kind::times, "at the time that `time` gives at its centre"}})
-      .doc("What decides when an element is born.");
+  s.choice(
+       "kind", &D::kind,
+       {{"front", D::Kind::front,
+         "an element is activated when a moving plane reaches its centre; elements behind the plane at its "
+         "start exist from the start"},
+        {"path", D::Kind::path,
+         "when the point that follows a path passes its centre, within `width` and `depth`"},
+        {"times", D::Kind::times, "at the time that `time` gives at its centre"}})
+      .doc("When an element is activated.");
   s.quantity("from", &D::from, "m")
       .initially(Value::list())
       .when("kind", {"front"})
@@ -155,12 +156,12 @@ Section<DepositionSpec> deposition_keys() {
   s.function("time", &D::time, "s")
       .anywhere(Key::Place::position)
       .when("kind", {"times"})
-      .doc("When an element is born; with zero or less it exists from the start.");
+      .doc("When an element is activated; with zero or less it exists from the start.");
   s.quantity("interval", &D::interval, "s")
       .positive()
       .doc(
-          "Births are moved to multiples of this time; without it elements are born at up to 400 different "
-          "times. Adaptive steps end there.");
+          "Activation is moved to multiples of this time; without it elements are activated at up to 400 "
+          "different times. Adaptive steps end there.");
   s.key("bare", &D::bare)
       .initially("")
       .doc(
