@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# What the scripts of this folder share: packages of a release of Debian, at the versions named, in a temporary root of their own.
+# What the scripts of this folder share: packages of a release of Debian, at the versions named, in a temporary root of their own, and
+# packages of npm in a temporary folder.
 # To be sourced; see README.md. Nothing of the system is changed, and nothing of it is seen by what runs in the root.
 set -euo pipefail
 
@@ -75,6 +76,22 @@ inside() {
     LD_LIBRARY_PATH="$libraries/openblas-serial:$libraries/blas:$libraries/lapack" "$(command -v "${enter[0]}")" \
     "${enter[@]:1}" "$root" "$@"
 }
+
+# make_modules NAME=VERSION...: installs these packages of npm with their dependencies into a new folder, $modules. Their scripts of
+# installation are not run. Node.js is that of the machine.
+make_modules() {
+  local tool
+  for tool in node npm; do command -v $tool >/dev/null || skip "there is no $tool"; done
+  (($(node -p 'process.versions.node.split(".")[0]') >= 18)) || skip "Node.js is older than 18"
+  modules=$(mktemp -d "$work/modules.XXXXXX")
+  echo '{"private": true}' >"$modules/package.json"
+  npm install --prefix "$modules" --cache "$cache/npm" --ignore-scripts --no-audit --no-fund "${@/=/@}" >"$work/npm.log" 2>&1 ||
+    skip "cannot be had from npm: $*: $(grep -m 1 'npm error' "$work/npm.log" || tail -n 1 "$work/npm.log")"
+  printf 'npm: %s\n' "$*"
+}
+
+# in_node ARGUMENT...: runs the module of standard input beside $modules, with nothing of the environment.
+in_node() { (cd "$modules" && env -i PATH="$PATH" HOME="$modules" LC_ALL=C.UTF-8 node --input-type=module - "$@"); }
 
 # expect SAID: compares it with what the script states (standard input), ends with exit code 1 where they differ.
 expect() {

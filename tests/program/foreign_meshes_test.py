@@ -115,6 +115,22 @@ class SetsOfNodes(BlockOfTwoBodies):
                       self.refusal("check", "case.toml"))
 
 
+class ValuesThatAreNotFinite(BlockOfTwoBodies):
+    def test_of_a_text_of_vtk_do_not_hide_the_bodies_behind_them(self):
+        """VTK's own reader loses what is behind the first of them (findings/vtk_writes_text_that_it_cannot_read.sh)."""
+        cells = [f"8 {' '.join(str(n - 1) for n in element)}\n" for element in self.grid.elements.values()]
+        bodies = [1 if n in self.of_casting else 2 for n in range(1, 17)]
+        self.write("gaps.vtk", "# vtk DataFile Version 3.0\ngaps\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                   f"POINTS {len(self.grid.nodes)} double\n" + "".join(f"{x} {y} {z}\n" for _, x, y, z in self.grid.nodes)
+                   + f"CELLS 16 {16 * 9}\n{''.join(cells)}CELL_TYPES 16\n{'12 ' * 16}\n"
+                   f"CELL_DATA 16\nSCALARS gap double 1\nLOOKUP_TABLE default\n{'nan inf -inf 1 ' * 4}\n"
+                   f"SCALARS body int 1\nLOOKUP_TABLE default\n{' '.join(map(str, bodies))}\n")
+        said = solidus("mesh-info", "gaps.vtk", "--unit", "mm", cwd=self.folder)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        for body in ("body_1", "body_2"):
+            self.assertRegex(said.stdout, rf"{body} +body +27 +8 hex8 +64000 mm3")
+
+
 class UnitsOfFiles(ProgramTest):
     UNITS = SOURCES / "tests/unit/mesh/units"
 
