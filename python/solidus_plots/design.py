@@ -235,7 +235,7 @@ def new_words(options):
         alloy = alloy or cast["material"]
         if not process:
             process = document.get("title", "").rpartition(", ")[2]
-            if process not in ("sand", "shell", "gravity_die"):
+            if process not in ("sand", "shell", "gravity_die", "high_pressure"):
                 raise ResultError(f"{case}: its title does not say by which process it is cast; --process does")
         words += ["--unit", mesh["unit"]] if "unit" in mesh else []
         words += ["--symmetry", mesh["symmetry"]["axis"]] if "symmetry" in mesh else []

@@ -97,6 +97,14 @@ def cut(cell, most=40):
     return cell if not isinstance(cell, str) or len(cell) <= most else cell[:most - 1] + "…"
 
 
+def _refuse_unless_right(study, verb):
+    """Throws ResultError with what `check`, or `resolve`, says of the first run."""
+    checked = subprocess.run([program(), verb, str(study.case), *arguments(study, study.runs[0])],
+                             capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    if checked.returncode != 0:
+        raise ResultError(f"{study.path}: the first run is not in order:\n{checked.stderr.strip()}")
+
+
 def main(given=None):
     parser = argparse.ArgumentParser(prog="solidus study", description=__doc__.splitlines()[0])
     parser.add_argument("file", type=Path, metavar="FILE")
@@ -109,7 +117,8 @@ def main(given=None):
     try:
         study = read_study(options.file)
         jobs = jobs_from(options.jobs)
-        if options.dry_run:
+        if options.dry_run:  # keys and values alone: no mesh is made
+            _refuse_unless_right(study, "resolve")
             header = ["run", *(parameter.key for parameter in study.parameters)]
             print(as_text(header, [[str(number + 1), *map(str, run)] for number, run in enumerate(study.runs)]))
             return 0
@@ -117,10 +126,7 @@ def main(given=None):
         name = case.name if case.is_dir() else case.parent.name
         folder = options.output or options.results_root / "results" / name / study.path.stem
         # The first run's case is checked before hundreds of folders are made.
-        checked = subprocess.run([program(), "check", str(study.case), *arguments(study, study.runs[0])],
-                                 capture_output=True, text=True, stdin=subprocess.DEVNULL)
-        if checked.returncode != 0:
-            raise ResultError(f"{study.path}: the first run is not in order:\n{checked.stderr.strip()}")
+        _refuse_unless_right(study, "check")
         print(f"{study.title}: {len(study.runs)} runs, {jobs} at a time, in {folder}")
         failed = run_study(study, folder, jobs, options.restart)
     except (ResultError, OSError) as error:

@@ -67,6 +67,10 @@ class Study(ProgramTest):
         self.write("case.toml", CASE)
         self.write("study.toml", STUDY)
         self.assertIn("4000 W/m2/K", self.done("study", "study.toml", "--dry-run"))
+        self.write("slip.toml", STUDY.replace('"time.step"', '"time.stpe"'))
+        slip = solidus("study", "slip.toml", "--dry-run", cwd=self.folder)
+        self.assertEqual(slip.returncode, 1, slip.stdout)
+        self.assertIn("did you mean 'step'", slip.stderr)
         said = self.done("study", "study.toml", "-o", "out", "-j", "2", env={"SOLIDUS_PROCESSES": "2"})
         self.assertIn("4 runs, 2 failed", said)
         self.assertRegex((self.folder / "out/run_1/log.txt").read_text(), r"^1 process of ")  # many runs have a core each
