@@ -5,7 +5,7 @@
 # Versions:  CalculiX 2.20 (Debian 12)
 # Seen on:   30 November 2026, Debian 12, x86-64
 # Matters:   a node ten or a hundred thousand times too far away, or a modulus of 21 Pa, in a run with exit code 0.
-# Solidus:   writes thirteen digits at most, nineteen characters (src/results/formats/structural_deck.cpp).
+# Solidus:   writes no more than twenty characters (tests/program/summary_test, docs/guide/export.md).
 . "$(dirname "${BASH_SOURCE[0]}")/common/root.sh"
 
 make_root bookworm calculix-ccx=2.20-1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What:      stringify of @iarna/toml writes 1e-7 as "1e-7.undefined", which is no TOML and which its own parser refuses. It concerns every
-#            number that JavaScript prints as one digit and an exponent: 2e-7, -5e-9. 1.2e-7 is written as it should be.
+#            number that JavaScript prints as one digit and a negative exponent: 2e-7, -5e-9. 1.2e-7 is written as it should be.
 # Versions:  @iarna/toml 3.0.0 (npm)
 # Seen on:   30 November 2026, Debian 12, x86-64, Node.js 20.20.2
 # Matters:   coefficients of expansion, diffusivities, tolerances and lengths in metres are such numbers: a case that a page saved is not

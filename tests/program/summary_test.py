@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from program import ProgramTest, solidus
+from program import SOURCES, ProgramTest, solidus
 
 # A plate with a riser on it, a chill of the same metal next to it; the plate cools at its lower edge. The bodies share
 # their nodes.
@@ -57,6 +57,22 @@ kind = "film"
 coefficient = "100 W/m2/K"
 ambient = "20 degC"
 """
+
+
+class Decks(ProgramTest):
+    def test_hold_no_number_of_which_calculix_reads_a_part(self):
+        """It reads twenty characters of each (findings/calculix_reads_twenty_characters_of_a_number.sh)."""
+        self.done("run", str(SOURCES / "cases/two_blocks"), "-o", "out", "--no-progress", "--set", "time.step=2 s", "--set", "time.end=4 s")
+        for arguments in ((), ("--temperature-history",)):
+            self.done("export", "out", "--calculix", "part.inp", *arguments)
+            numbers, keyword = [], ""
+            for line in (self.folder / "part.inp").read_text().splitlines():
+                if line.startswith("*"):
+                    keyword = line
+                elif keyword != "*HEADING":
+                    numbers += line.split(",")
+            self.assertGreater(len(numbers), 1000)
+            self.assertLessEqual(max(len(number.strip()) for number in numbers), 20)
 
 
 class Summary(ProgramTest):
