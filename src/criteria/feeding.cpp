@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "criteria/criterion_kind.hpp"
 #include "criteria/feeding_step.hpp"
 #include "criteria/quantities.hpp"
 #include "numbers/index_casts.hpp"
@@ -68,6 +69,10 @@ Feeding::Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnt
   }
   ghosts_.update(body, 1);
   std::transform(body.begin(), body.end(), body_.begin(), [](double b) { return static_cast<int>(b); });
+}
+
+bool Feeding::follows(const CriterionContext& c) {
+  return c.heat != nullptr && !c.mechanics && c.feeding && has_shrinkage(c.materials, c.followed);
 }
 
 bool Feeding::has_shrinkage(const std::vector<material::Material>& materials,

@@ -65,12 +65,17 @@ struct FeedingHole {
   int body = -1;        ///< that has its lowest place, of others the node that lost most
 };
 
+struct CriterionContext;  // criteria/criterion_kind.hpp
+
 class Feeding : public Criterion {
  public:
   static constexpr const char* k_name = "feeding";
   /// @param storage  of the thermal phase; kept by reference, as the mesh is
   Feeding(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnthalpy& storage,
           const FeedingOptions& options);
+  /// Whether a run follows it: with heat alone, where the case does not switch it off, and where metal
+  /// changes its volume.
+  static bool follows(const CriterionContext& c);
   /// Whether a material that is followed changes its volume; else there is nothing to feed.
   static bool has_shrinkage(const std::vector<material::Material>& materials,
                             const std::vector<char>& followed);
@@ -112,6 +117,12 @@ class Feeding : public Criterion {
   void find_pools(Step& step) const;
   bool asks_in_mush(const Step& step) const;
   void feed_mush(Step& step) const;
+  struct PoolStock {
+    std::vector<double> asked;      ///< by the mush of each region [m³]
+    std::vector<double> has;        ///< each pool [m³]
+    std::vector<double> region_of;  ///< each pool; −1: none
+  };
+  static PoolStock stock_of_pools(const Step& step, const std::vector<int>& region, std::size_t n_regions);
   void share_among_pools(Step& step, const std::vector<double>& from_pool, const std::vector<int>& region,
                          std::size_t n_regions) const;
   static void open_pores(Step& step, std::size_t node, double metal);

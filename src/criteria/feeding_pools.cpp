@@ -195,15 +195,13 @@ void Feeding::open_pores(Step& step, std::size_t node, double metal) {
   demand.metal -= metal;
 }
 
-// Pools give to the mush of their region in proportion to what flows from them, none more than it has. What
-// all pools of a region together cannot give opens pores in its mush.
-void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool,
-                                const std::vector<int>& region, std::size_t n_regions) const {
-  constexpr double k_given = 0.9;  // of what a pool has
+// For each region what its mush asks for, and for each pool what it has and where it lies. Collective.
+Feeding::PoolStock Feeding::stock_of_pools(const Step& step, const std::vector<int>& region,
+                                           std::size_t n_regions) {
   const std::size_t n_pools = step.pools.size();
-  // For each region what its mush asks for, and for each pool what it has and where it lies.
-  std::vector<double> asked(n_regions, 0.0), has(n_pools, 0.0);
-  std::vector<double> region_of(n_pools, -1.0);
+  PoolStock stock{std::vector<double>(n_regions, 0.0), std::vector<double>(n_pools, 0.0),
+                  std::vector<double>(n_pools, -1.0)};
+  auto& [asked, has, region_of] = stock;
   for (std::size_t i = 0; i < step.demands.size(); ++i) {
     if (region[i] < 0) continue;
     const double room = step.rows(i, k_room);
@@ -219,6 +217,16 @@ void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool
   processes::sum(asked);
   processes::sum(has);
   processes::largest(region_of);
+  return stock;
+}
+
+// Pools give to the mush of their region in proportion to what flows from them, none more than it has. What
+// all pools of a region together cannot give opens pores in its mush.
+void Feeding::share_among_pools(Step& step, const std::vector<double>& from_pool,
+                                const std::vector<int>& region, std::size_t n_regions) const {
+  constexpr double k_given = 0.9;  // of what a pool has
+  const std::size_t n_pools = step.pools.size();
+  auto [asked, has, region_of] = stock_of_pools(step, region, n_regions);
   // Of what a pool has, its own surface needs some: the rest may be given.
   std::vector<double> left(n_regions, 0.0), flow(n_regions, 0.0), part(n_regions, 1.0);
   for (std::size_t p = 0; p < n_pools; ++p) {

@@ -441,10 +441,4 @@ inline constexpr std::array k_of_mush_strain = {&k_strained_tendency, &k_crackin
 inline constexpr std::array k_of_local_properties = {&k_tensile_strength, &k_elongation, &k_hardness,
                                                      &k_grain_size};
 
-/// Those that a run has where a material, or the case, has the data.
-inline constexpr std::array k_of_some_materials = {
-    &k_gas_pores,         &k_strained_tendency, &k_cracking_index,   &k_tensile_strength,
-    &k_elongation,        &k_hardness,          &k_grain_size,       &k_shot_strain_range,
-    &k_shots_until_crack, &k_shot_wear,         &k_shots_until_worn, &k_soldering_time};
-
 }  // namespace solidus::criteria::fields

@@ -21,7 +21,7 @@ OTHERS = {
     "setup/friction_input.cpp": "keys of friction", "criteria/strain_criteria.cpp": "the name of its record", "contact/laws/": "keys of laws", "check/uncertain_parameters.cpp": "keys of a case",
     "coupling/add_scheme.hpp": "words of a key", "linear/": "names of blocks", "setup/field_mapping.cpp": "the field of another run",
     "check/findings/partly_in_contact.cpp": "a word of a key", "run/filling_input.cpp": "members of what a flow is asked",
-    "setup/case_checks.cpp": "keys of a filling", "criteria/life_quantities.hpp": "rows of fields, apart from the others", "criteria/die_quantities.hpp": "rows of fields of dies",
+    "setup/case_checks.cpp": "keys of a filling", "criteria/life_quantities.hpp": "rows of fields, apart from the others", "criteria/kinds/": "rows of fields in the file of their criterion", "criteria/die_quantities.hpp": "rows of fields of dies",
 }
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 QUOTED = re.compile(r"""["'`]([a-z_0-9]+)["'`]""")

@@ -79,9 +79,9 @@ class CoupledPoints : public Kernel, public CoupledKernel {
     const auto start = this->start_state(batch, q);
     const auto p = jets(batch, q, theta);
     const auto r = this->update(batch, q, strain);
-    const Sym<Lane> at_work = this->mean_stress(batch, q, r.stress);
+    const Sym<Lane> at_work = this->stress_of_work_.mean_at(this->index(batch, q), r.stress);
     return coupled_rates({this->law_, p, start, r, strain, increment, at_work, this->points_->at(batch, q),
-                          theta, this->dt_, this->effective_, this->stress_share_},
+                          theta, this->dt_, this->effective_, this->stress_of_work_.share()},
                          form);
   }
 

@@ -121,7 +121,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
 
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
     auto* const averages = this->begin_finish(end);
-    typename Base::Tally tally;
+    StepSums sums;
     Workspace<Law> space(this->law_);
     if constexpr (KeepsStateInPlace<Law>) space.wants_tangent = false;
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
@@ -131,12 +131,12 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         const Operator b = at_point(batch, q);
         const Sym<Lane> strain = b.strain(displacement);
         this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space), end,
-                     average, tally);
+                     average, sums);
       }
       this->keep(batch, average, averages);
     }
     this->hand_out_deformation(end);
-    return this->total(tally);
+    return sums.total(this->dt_);
   }
 
   FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,

@@ -1,16 +1,16 @@
-/// The points of a mesh block: geometry, law and history, and the properties of a step, eight elements at a
-/// time. The lowest part of all element kernels (point_record.hpp, point_block.hpp).
+/// The points of a mesh block: geometry, law and the properties of a step, eight elements at a time. All
+/// element kernels build on it (point_record.hpp, point_restart.hpp, point_block.hpp). Its parts are the
+/// layout of histories (history_layout.hpp), the deformation for the heat balance (structural_points.hpp) and
+/// the properties, stored once where they are the same everywhere (common_packs.hpp).
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "mechanics/elements/block_kernel.hpp"
 #include "mechanics/elements/element_transfer.hpp"
+#include "mechanics/elements/history_layout.hpp"
 #include "mechanics/elements/law_parts.hpp"
 #include "mechanics/elements/law_traits.hpp"
 #include "mechanics/elements/padding.hpp"
@@ -32,16 +32,12 @@ class LawHistory : public BlockKernel {
   using Properties = typename Law::template Properties<Lane>;
   using Response = typename Law::template Response<Lane>;
   static constexpr std::size_t dim = Operator::dim;
-  static_assert(KeepsStateInPlace<Law> || sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
-  using Lanes = std::array<Lane, sizeof(State) / sizeof(Lane)>;
 
   LawHistory(const mesh::Mesh& mesh, const mesh::ElementBlock& block, const material::Material& material)
       : geometry_(mesh, block, kind, mesh::stiffness_rule(block.shape)),
         law_(material),
         points_(std::make_shared<StructuralPoints>(geometry_, material)),
-        kept_(kept_lanes(law_)),
-        n_state_(kept_.size()),
-        n_kept_(n_state_ + n_extra),
+        layout_(law_, n_extra),
         properties_(as_size(geometry_.n_batches * geometry_.n_points)) {}
 
   bool symmetric() const override { return law_.symmetric(); }
@@ -51,8 +47,8 @@ class LawHistory : public BlockKernel {
   }
 
   BlockHistory initial_history() const override {
-    BlockHistory history{static_cast<int>(n_kept_), geometry_.n_points, {}};
-    history.values.assign(properties_.size() * n_kept_, Lane(0.0));
+    BlockHistory history{static_cast<int>(layout_.lanes()), geometry_.n_points, {}};
+    history.values.assign(properties_.size() * layout_.lanes(), Lane(0.0));
     return history;
   }
 
@@ -93,10 +89,7 @@ class LawHistory : public BlockKernel {
   }
 
   void spread_heat_as_stored(const PackVector<Lane>& weights) override {
-    if (!std::exchange(keeps_base_, true)) {  // histories have it behind the law's state from now on
-      n_state_ += k_base_lanes;
-      n_kept_ += k_base_lanes;
-    }
+    layout_.add_base();
     own_points();
     points_->keep();
     points_->spread_as_stored(weights);
@@ -128,18 +121,10 @@ class LawHistory : public BlockKernel {
   }
   const linear::BlockMatrix::Slot* slots_of(Index batch) const { return slots_.of(batch); }
 
-  State state_of(const BlockHistory& history, Index batch, int point) const {
-    const Lane* from = history.values.data() + index(batch, point) * n_kept_;
-    if constexpr (KeepsStateInPlace<Law>) {
-      return State{from};
-    } else {
-      Lanes lanes{};
-      for (const std::size_t lane : kept_) lanes[lane] = *from++;
-      return std::bit_cast<State>(lanes);
-    }
+  State old_state(Index batch, int point) const { return layout_.state(*old_history_, index(batch, point)); }
+  State start_state(Index batch, int point) const {
+    return layout_.state(*start_history_, index(batch, point));
   }
-  State old_state(Index batch, int point) const { return state_of(*old_history_, batch, point); }
-  State start_state(Index batch, int point) const { return state_of(*start_history_, batch, point); }
 
   /// @param space  of a law whose state lies in place: the state of the answer is in it
   Response update(Index batch, int point, const Sym<Lane>& strain, Workspace<Law>& space) const {
@@ -180,11 +165,11 @@ class LawHistory : public BlockKernel {
     points_->set_temperature(batch, q, old_theta, theta, p.thermal_strain);
     if (start.lead != nullptr) points_->begin_with(batch, q, (*start.lead)[index(batch, q)]);
     if constexpr (HoldsEntropy<Properties>) {
-      const State held = state_of(*start.held_history, batch, q);
+      const State held = layout_.state(*start.held_history, index(batch, q));
       properties.entropy = law_.entropy(properties, held_strain, held);
       // The energy of the state at t_n is continued from its own base; an iterate has the base of this step
       // already.
-      if (start.held_history == start.old_history && keeps_base_) {
+      if (start.held_history == start.old_history && layout_.has_base()) {
         const StructuralBase base = old_base(batch, q);
         properties.entropy +=
             points_->entropy_ahead(batch, q, deformation(held_strain, held, base.solid > Lane(0.0)), base);
@@ -214,9 +199,8 @@ class LawHistory : public BlockKernel {
   /// The base of the state at t_n, behind its law's history; zero where nothing has been solved yet. Where
   /// energy is evaluated again, or no one asked for structural heat, that of this step.
   StructuralBase old_base(Index batch, int q) const {
-    if (!keeps_base_ || !points_->carries_energy()) return points_->base(batch, q, is_solid(batch, q));
-    const Lane* from = base_of(*old_history_, batch, q);
-    StructuralBase base{from[0], from[1], from[2]};
+    if (!layout_.has_base() || !points_->carries_energy()) return points_->base(batch, q, is_solid(batch, q));
+    StructuralBase base = layout_.base(*old_history_, index(batch, q));
     const LaneMask known = base.line_temperature > Lane(0.0);
     if (!any(!known)) return base;
     const StructuralBase initial =
@@ -244,19 +228,6 @@ class LawHistory : public BlockKernel {
                               base);
   }
 
-  static constexpr std::size_t k_base_lanes = sizeof(StructuralBase) / sizeof(Lane);
-
-  template <class History>
-  auto base_of(History& history, Index batch, int q) const {
-    return history.values.data() + index(batch, q) * n_kept_ + n_state_ - k_base_lanes;
-  }
-  void keep_base(BlockHistory& history, Index batch, int q, const StructuralBase& base) const {
-    Lane* to = base_of(history, batch, q);
-    to[0] = base.line_temperature;
-    to[1] = base.strain_offset;
-    to[2] = base.solid;
-  }
-
   static Deformation deformation(const Sym<Lane>& strain, const State& state, const LaneMask& solid) {
     const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
     const auto [hardening, back_squared] = hardening_of(state);
@@ -272,12 +243,9 @@ class LawHistory : public BlockKernel {
   Law law_;
   /// The deformation of the pass that runs. Passes hand it out: own_points() before it is written to.
   std::shared_ptr<StructuralPoints> points_;
-  std::vector<std::size_t> kept_;       ///< lanes of the state that the material can change, rising
-  std::size_t n_state_;                 ///< of them, with structural heat also those of StructuralBase
-  std::size_t n_kept_;                  ///< with n_extra: lanes of a point's history
+  HistoryLayout<Law> layout_;
   CommonPacks<Properties> properties_;  ///< at Θ_n: [batch][point]
   linear::LaneSlots slots_;
-  bool keeps_base_ = false;                      ///< histories hold a StructuralBase
   PackVector<Sym<Lane>> initial_strain_;         ///< C⁻¹ σ_0, [batch][point]; empty: none
   std::span<const double> temperature_;          ///< Θ_n of the step, [local node]
   std::span<const double> initial_temperature_;  ///< Θ_0, [local node]

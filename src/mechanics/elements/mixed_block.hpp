@@ -17,7 +17,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   using Nodes = PressureNodes<n_nodes, kind>;
 
  protected:
-  using Base::dim, Base::gather, Base::geometry_, Base::nodes_of, Base::n_kept_, Base::n_state_;
+  using Base::dim, Base::gather, Base::geometry_, Base::nodes_of, Base::layout_;
   using Nodes::at, Nodes::at_point, Nodes::weight, Nodes::mean, Nodes::masses;
   using typename Base::State, typename Base::Properties, typename Base::Response, typename Base::Matrix;
   using typename Nodes::Slot;
@@ -38,7 +38,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     old_volume_.resize(n, Lane(0.0));
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
-    if (this->flow_.flows()) n_kept_ += dim + 2;
+    if (this->flow_.flows()) layout_.add_extra(dim + 2);
   }
 
   bool set_initial_stress(const StepStart& start, std::span<const double> stress) override {
@@ -148,7 +148,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, const BlockEnd& end) override {
     auto* const averages = this->begin_finish(end);
     BlockHistory& trial = end.history;
-    typename Base::Tally tally;
+    StepSums sums;
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
@@ -158,10 +158,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const MixedPoint point = answer(batch, gradient, mean_pressure);
       typename Base::Average average;
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
-                                             point.response, end, average, tally);
+                                             point.response, end, average, sums);
       keep_volume(trial, batch, point.volume);
       const Lane pores = pores_.fraction(batch, mean_pressure);
-      trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores;
+      trial.values[layout_.extra(at(batch)) + 1] = pores;
       keep_pores(batch, pores, averages);
       keep_flow(trial, batch);
       // The work of the pressure on the difference of the volumes is taken up by the sub-scales, the pores
@@ -174,11 +174,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       Lane left_over = weight(batch) * (pressure * (old_volume - point.volume) +
                                         compacting * (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
-      tally.stabilisation_work += this->counted(batch) * left_over;
+      sums.stabilisation_work += this->counted(batch) * left_over;
       this->keep(batch, average, averages);
     }
     this->hand_out_deformation(end);
-    return this->total(tally);
+    return sums.total(this->dt_);
   }
 
   void release_pores() override { pores_.release(); }
@@ -317,10 +317,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
   const Compaction& compaction() const { return compaction_; }
   Lane kept_volume(const BlockHistory& history, Index batch) const {
-    return history.values[at(batch) * n_kept_ + n_state_];
+    return history.values[layout_.extra(at(batch))];
   }
   Lane kept_pores(const BlockHistory& history, Index batch) const {
-    return history.values[at(batch) * n_kept_ + n_state_ + 1];
+    return history.values[layout_.extra(at(batch)) + 1];
   }
   std::array<Lane, dim> kept_flow(const BlockHistory& history, Index batch) const {
     std::array<Lane, dim> q;
@@ -350,7 +350,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
             .freezing = freezing.empty() ? Lane(0.0) : within_nodes(this->geometry_, batch, 0, freezing)};
   }
   std::size_t flow_place(Index batch) const {
-    return at(batch) * n_kept_ + n_state_ + k_mixed_extra<n_nodes, kind>;
+    return layout_.extra(at(batch)) + k_mixed_extra<n_nodes, kind>;
   }
   void keep_flow(BlockHistory& history, Index batch) const {
     if (!this->flow_.flows()) return;
@@ -362,7 +362,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     if (averages != nullptr && pores_.may_open()) averages->set_pores(batch, fraction);
   }
   void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
-    history.values[at(batch) * n_kept_ + n_state_] = volume;
+    history.values[layout_.extra(at(batch))] = volume;
   }
 
   /// The properties at Θ_n, also where the law works at the temperature of an iterate: with them the
@@ -403,14 +403,13 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     const std::size_t place = flow_place(batch) + dim;
     Lane stress = end.history.values[place] = compaction_.stress(batch, divergence);
     end.history.values[place + 1] = compaction_.thermal_strain(batch);
-    if (this->old_stress_ != nullptr)
-      stress = Lane(this->stress_share_) * stress +
-               Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
+    stress = this->stress_of_work_.mean(stress, [&] { return this->old_history_->values[place]; });
     if (end.at_work != nullptr) {
       end.at_work->compaction.resize(volume_.size());
       end.at_work->compaction[at(batch)] = stress;
     }
-    return this->at_work_ != nullptr ? this->at_work_->compaction[at(batch)] : stress;
+    const StressAtWork* const given = this->stress_of_work_.given();
+    return given != nullptr ? given->compaction[at(batch)] : stress;
   }
   /// p_a − p̄ of the stress whose work the step does; writes that of its end for the next one. Without a hoop
   /// it does no work.
@@ -420,19 +419,18 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Nodal p = this->gather_pressure(this->field_.pressure, batch);
       const Lane middle = mean(p, batch);
       for (std::size_t a = 0; a < n_nodes; ++a) {
-        const std::size_t place = at(batch) * n_kept_ + n_state_ + 2 + a;
+        const std::size_t place = layout_.extra(at(batch)) + 2 + a;
         variation[a] = end.history.values[place] = p[a] - middle;
-        if (this->old_stress_ != nullptr)
-          variation[a] = Lane(this->stress_share_) * variation[a] +
-                         Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
+        variation[a] =
+            this->stress_of_work_.mean(variation[a], [&] { return this->old_history_->values[place]; });
       }
       const std::size_t first = at(batch) * n_nodes;
       if (end.at_work != nullptr) {
         end.at_work->variation.resize(volume_.size() * n_nodes);
         for (std::size_t a = 0; a < n_nodes; ++a) end.at_work->variation[first + a] = variation[a];
       }
-      if (this->at_work_ != nullptr)
-        for (std::size_t a = 0; a < n_nodes; ++a) variation[a] = this->at_work_->variation[first + a];
+      if (const StressAtWork* const given = this->stress_of_work_.given())
+        for (std::size_t a = 0; a < n_nodes; ++a) variation[a] = given->variation[first + a];
     }
     return variation;
   }

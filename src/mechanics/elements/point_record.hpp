@@ -1,12 +1,12 @@
-/// The record of a step at the points: the trial history, values for results, sums over the block, and the
-/// deformation that the thermal phase needs.
+/// The record of a step at the points: the trial history, values for results, sums over the block
+/// (step_sums.hpp), the stress whose work the step does (stress_of_work.hpp), and the deformation that the
+/// thermal phase needs.
 #pragma once
-
-#include <algorithm>
-#include <cstring>
 
 #include "mechanics/elements/element_averages.hpp"
 #include "mechanics/elements/law_history.hpp"
+#include "mechanics/elements/step_sums.hpp"
+#include "mechanics/elements/stress_of_work.hpp"
 
 namespace solidus::mechanics {
 
@@ -15,7 +15,7 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
   using Base = LawHistory<Law, n_nodes, kind, b_bar, n_extra>;
 
  public:
-  using typename Base::Lanes, typename Base::Properties, typename Base::Response, typename Base::State;
+  using typename Base::Properties, typename Base::Response, typename Base::State;
   using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
                                     Sym<Lane>{}));
   using Averages = ElementAverages<Values>;
@@ -23,16 +23,9 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
   using Base::Base;
 
  protected:
-  using Base::counted, Base::deformation, Base::dt_, Base::geometry_, Base::index, Base::is_solid,
-      Base::kept_, Base::law_, Base::n_kept_, Base::old_base, Base::old_state, Base::points_,
-      Base::properties_;
+  using Base::counted, Base::deformation, Base::dt_, Base::geometry_, Base::index, Base::is_solid, Base::law_,
+      Base::layout_, Base::old_base, Base::old_state, Base::points_, Base::properties_;
 
-  /// Sums of a step over the counted elements, lane by lane.
-  struct Tally {
-    Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0},
-        inelastic_entropy{0.0};
-    PlasticPower plastic;
-  };
   /// Average over the points of a batch, weighted with their volumes.
   struct Average {
     Values sums;
@@ -41,9 +34,7 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
 
   void begin_step(const StepStart& start) {
     Base::begin_step(start);
-    old_stress_ = start.old_stress;
-    stress_share_ = start.stress_share;
-    at_work_ = start.at_work;
+    stress_of_work_.begin_step(start);
   }
   /// @return the values of the elements, to be written; null: not asked for
   Averages* begin_finish(const BlockEnd& end) {
@@ -57,28 +48,17 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
   /// needs; strains are those that the law has seen.
   /// @return the stress whose work the step does
   Sym<Lane> record(Index batch, int q, const Sym<Lane>& old_strain, const Sym<Lane>& strain,
-                   const Response& response, const BlockEnd& end, Average& average, Tally& tally) {
+                   const Response& response, const BlockEnd& end, Average& average, StepSums& sums) {
     BlockHistory& trial = end.history;
     const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
     const Properties p = properties_[index(batch, q)];
-    Lane* to = trial.values.data() + index(batch, q) * n_kept_;
-    if constexpr (KeepsStateInPlace<Law>) {
-      std::copy_n(response.state.values, kept_.size(), to);
-    } else {
-      const auto lanes = std::bit_cast<Lanes>(response.state);
-      for (const std::size_t lane : kept_) *to++ = lanes[lane];
-    }
+    layout_.write(response.state, trial, index(batch, q));
     if (end.elements != nullptr) {
       average.volume += w;
       add_weighted(average.sums, w, values_of(law_, p, response, strain));
     }
 
-    if (end.stress != nullptr)
-      std::memcpy(static_cast<void*>(end.stress->values.data() + index(batch, q) * k_stress_lanes),
-                  &response.stress, sizeof response.stress);
-    Sym<Lane> at_work = mean_stress(batch, q, response.stress);
-    if (end.at_work != nullptr) end.at_work->stress[index(batch, q)] = at_work;
-    if (at_work_ != nullptr) at_work = at_work_->stress[index(batch, q)];
+    const Sym<Lane> at_work = stress_of_work_.record(index(batch, q), response.stress, end);
     const Lane work = dot(at_work, strain - old_strain);
     if (points_->kept()) {
       const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
@@ -91,18 +71,14 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
       point.work = work;
       const StructuralBase base = old_base(batch, q);
       points_->set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
-      if (this->keeps_base_) this->keep_base(trial, batch, q, points_->base(batch, q, solid));
+      if (layout_.has_base()) layout_.write_base(points_->base(batch, q, solid), trial, index(batch, q));
     }
 
-    const PlasticPower power = plastic_power(law_, response);
-    tally.internal_work += share * work;
-    tally.dissipation += share * response.dissipation;
-    tally.plastic.dissipation += share * power.dissipation;
-    tally.plastic.power += share * power.power;
-    tally.inelastic_entropy +=
+    sums.internal_work += share * work;
+    sums.add_power(share, response.dissipation, plastic_power(law_, response));
+    sums.inelastic_entropy +=
         share * (inelastic_entropy(response.state) - inelastic_entropy(old_state(batch, q)));
-    tally.least = min(tally.least, counted(batch) * response.dissipation);
-    tally.largest = max(tally.largest, counted(batch) * response.dissipation);
+    sums.add_extremes(counted(batch), response.dissipation);
     return at_work;
   }
 
@@ -129,30 +105,6 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
     if (end.deformation != nullptr) *end.deformation = deformation_found();
   }
 
-  BlockWork total(const Tally& tally) const {
-    BlockWork work;
-    work.internal_work = sum(tally.internal_work);
-    work.stabilisation_work = sum(tally.stabilisation_work);
-    work.dissipation = dt_ * sum(tally.dissipation);
-    work.plastic_dissipation = dt_ * sum(tally.plastic.dissipation);
-    work.plastic_work = dt_ * sum(tally.plastic.power);
-    work.inelastic_entropy = sum(tally.inelastic_entropy);
-    for (int lane = 0; lane < k_lanes; ++lane) {
-      work.least_dissipation = std::min(work.least_dissipation, tally.least[lane]);
-      work.largest_dissipation = std::max(work.largest_dissipation, tally.largest[lane]);
-    }
-    return work;
-  }
-
-  /// The mean of the stresses at both ends of a dynamic step.
-  Sym<Lane> mean_stress(Index batch, int point, const Sym<Lane>& stress) const {
-    if (old_stress_ == nullptr) return stress;
-    Sym<Lane> old;
-    std::memcpy(static_cast<void*>(&old), old_stress_->values.data() + index(batch, point) * k_stress_lanes,
-                sizeof old);
-    return Lane(stress_share_) * stress + Lane(1.0 - stress_share_) * old;
-  }
-
   /// Now : Δ since the old state.
   static Deformation change(const Sym<Lane>& strain, const State& state, const Sym<Lane>& old_strain,
                             const State& old, const LaneMask& solid) {
@@ -164,12 +116,7 @@ class PointRecord : public LawHistory<Law, n_nodes, kind, b_bar, n_extra> {
             cold_work(state) - cold_work(old)};
   }
 
-  double stress_share_ = 1;                   ///< of the end of the step in the stress at work
-  const BlockHistory* old_stress_ = nullptr;  ///< as in StepStart
-  const StressAtWork* at_work_ = nullptr;     ///< as in StepStart
-
- private:
-  static constexpr std::size_t k_stress_lanes = sizeof(Sym<Lane>) / sizeof(Lane);
+  StressOfWork stress_of_work_;
 };
 
 }  // namespace solidus::mechanics

@@ -12,18 +12,17 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
 
  public:
   using Base::Base;
-  using typename Base::Lanes, typename Base::Properties, typename Base::Response, typename Base::State,
-      typename Base::Values;
+  using typename Base::Properties, typename Base::Response, typename Base::State, typename Base::Values;
 
  protected:
   using Base::counted, Base::deformation, Base::dt_, Base::effective_, Base::geometry_, Base::index,
-      Base::kept_, Base::law_, Base::n_kept_, Base::old_state, Base::points_, Base::properties_,
-      Base::start_state, Base::update;
-  using typename Base::Average, typename Base::Averages, typename Base::Tally;
+      Base::law_, Base::layout_, Base::old_state, Base::points_, Base::properties_, Base::start_state,
+      Base::update;
+  using typename Base::Average, typename Base::Averages;
 
   /// FlowChange of a block, lane by lane.
   struct Restart {
-    Tally change;
+    StepSums change;
     LaneMask flows = Lane(0.0) > Lane(0.0);
     bool found = true;
   };
@@ -56,7 +55,7 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
     const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
     average.volume += w;
     add_weighted(average.sums, w, values);
-    replace_state(anew.state, solid, batch, q, trial);
+    layout_.replace(anew.state, solid, trial, index(batch, q));
     if (points_->kept()) {
       points_->keep_of_mechanics(batch, q, of_mechanics.now);
       auto& point = points_->at(batch, q);
@@ -64,13 +63,12 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
       point.change = now.change;
       point.dissipated = Lane(dt_) * now.dissipation;
     }
-    Tally& change = restart.change;
-    change.dissipation += share * (now.dissipation - of_mechanics.dissipation);
-    change.plastic.dissipation += share * (now.plastic.dissipation - of_mechanics.plastic.dissipation);
-    change.plastic.power += share * (now.plastic.power - of_mechanics.plastic.power);
+    StepSums& change = restart.change;
+    change.add_power(share, now.dissipation - of_mechanics.dissipation,
+                     {now.plastic.power - of_mechanics.plastic.power,
+                      now.plastic.dissipation - of_mechanics.plastic.dissipation});
     change.inelastic_entropy += share * (now.inelastic_entropy - of_mechanics.inelastic_entropy);
-    change.least = min(change.least, counted(batch) * now.dissipation);
-    change.largest = max(change.largest, counted(batch) * now.dissipation);
+    change.add_extremes(counted(batch), now.dissipation);
     restart.flows = restart.flows | (abs(now.dissipation - of_mechanics.dissipation) > Lane(0.0)) |
                     (abs(now.now.elastic_squared - of_mechanics.now.elastic_squared) > Lane(0.0));
   }
@@ -82,9 +80,8 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
     return this->begin_finish(end);
   }
 
-  using Base::total;
   FlowChange total(const Restart& restart) const {
-    return {Base::total(restart.change), any(restart.flows), restart.found};
+    return {restart.change.total(dt_), any(restart.flows), restart.found};
   }
 
  private:
@@ -109,21 +106,6 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
       return law.update(p, from, strain, effective_, space);
     else
       return law.update(p, from, strain, effective_);
-  }
-
-  /// Writes the state of the lanes where the mask holds.
-  void replace_state(const State& state, const LaneMask& mask, Index batch, int q,
-                     BlockHistory& trial) const {
-    Lane* to = trial.values.data() + index(batch, q) * n_kept_;
-    if constexpr (KeepsStateInPlace<Law>) {
-      for (std::size_t i = 0; i < kept_.size(); ++i) to[i] = select(mask, state.values[i], to[i]);
-    } else {
-      const auto lanes = std::bit_cast<Lanes>(state);
-      for (const std::size_t lane : kept_) {
-        *to = select(mask, lanes[lane], *to);
-        ++to;
-      }
-    }
   }
 };
 

@@ -30,14 +30,9 @@ Json pores_json(const Pores& pores) {
   return json;
 }
 
-}  // namespace
-
-Json json(const Answers& a) {
-  // The answers as summary.json has them. What is not known is left out rather than written as null, and
-  // every value that has one carries its error and its place.
-  Json json;
+/// Bodies one by one, under their names; a casting that has left has no present values.
+Json castings_json(const Answers& a) {
   Json castings;
-  // Bodies one by one, under their names; a casting that has left has no present values.
   for (const CastAnswer& cast : a.castings) {
     Json of_body;
     of_body.add("riser", cast.cast.feeds).add("gating", cast.cast.gates).add("there", cast.there);
@@ -52,18 +47,29 @@ Json json(const Answers& a) {
     if (cast.hottest) of_body.add("hottest_melt", value_json(*cast.hottest, "K"));
     castings.add(cast.cast.name, std::move(of_body));
   }
-  json.add("time[s]", a.time).add("castings", std::move(castings));
-  // How many pools were cut off from their feeders, with the largest.
-  if (a.pools) {
-    Json pools;
-    pools.add("number", a.pools->number);
-    if (a.pools->number > 0) {
-      pools.add("largest[m3]", a.pools->largest)
-          .add("at[m]", Json::Array(a.pools->where.begin(), a.pools->where.end()));
-      if (a.pools->frozen) pools.add("frozen[s]", *a.pools->frozen);
-    }
-    json.add("pools_cut_off", std::move(pools));
+  return castings;
+}
+
+/// How many pools were cut off from their feeders, with the largest.
+Json pools_json(const Answers::CutOffPools& cut_off) {
+  Json pools;
+  pools.add("number", cut_off.number);
+  if (cut_off.number > 0) {
+    pools.add("largest[m3]", cut_off.largest)
+        .add("at[m]", Json::Array(cut_off.where.begin(), cut_off.where.end()));
+    if (cut_off.frozen) pools.add("frozen[s]", *cut_off.frozen);
   }
+  return pools;
+}
+
+}  // namespace
+
+Json json(const Answers& a) {
+  // The answers as summary.json has them. What is not known is left out rather than written as null, and
+  // every value that has one carries its error and its place.
+  Json json;
+  json.add("time[s]", a.time).add("castings", castings_json(a));
+  if (a.pools) json.add("pools_cut_off", pools_json(*a.pools));
   // The yield is known only where bodies have roles.
   if (const std::optional<double> share = poured_share_of_parts(a)) json.add("yield", *share);
   if (a.pores) json.add("pores", pores_json(*a.pores));
