@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "contact/surfaces/surface.hpp"
 #include "mesh/block_geometry.hpp"
@@ -63,6 +65,22 @@ std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points) {
   return all;
 }
 
+namespace {
+
+/// The surfaces of a pair whose faces come and go with all of their faces, and their points as drawn.
+struct WholePair {
+  WholePair(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactParameters spec)
+      : surfaces(mesh, spec), geometry(mesh, kind, grown(std::move(spec)), surfaces) {}
+  static contact::ContactParameters grown(contact::ContactParameters spec) {
+    spec.growing.clear();
+    return spec;
+  }
+  contact::PairSurfaces surfaces;
+  contact::ContactGeometry geometry;
+};
+
+}  // namespace
+
 ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPair& pair, AnalysisKind kind,
                                 const mesh::Point& gravity) {
   constexpr double k_level = 0.05;  // cosine of the angle to gravity below which a face is upright
@@ -83,7 +101,10 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   // Gaps are measured at the points of contact, weighted by their area; those at the start have the initial
   // offset taken away.
   double low = std::numeric_limits<double>::max(), high = -low, low_start = low, high_start = high;
-  const contact::ContactKinematics& kinematics = pair.parts().geometry.kinematics();
+  std::optional<WholePair> whole;
+  if (!pair.parts().spec.growing.empty()) whole.emplace(mesh, kind, pair.parts().spec);
+  const contact::ContactGeometry& geometry = whole ? whole->geometry : pair.parts().geometry;
+  const contact::ContactKinematics& kinematics = geometry.kinematics();
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     if (!kinematics.particle(p).counted) continue;
     const contact::PointMotion motion =
@@ -98,7 +119,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
     }
     low = std::min(low, -motion.penetration);
     high = std::max(high, -motion.penetration);
-    const double start = -motion.penetration - pair.parts().geometry.initial_offset(p, motion.penetration);
+    const double start = -motion.penetration - geometry.initial_offset(p, motion.penetration);
     m.mean_start += motion.weight * std::max(0.0, start);
     low_start = std::min(low_start, start);
     high_start = std::max(high_start, start);

@@ -145,6 +145,21 @@ TEST(GrowingContact, HeatPassesThroughTheContactOfWhatWasBorn) {
   EXPECT_NEAR(last(run, "T[degC]"), 20 + 400 * std::exp(-10 * rate), 0.5);
 }
 
+/// Estimates of a casting that is not there at the start are those with all of its contact, and finite.
+TEST(GrowingContact, ACastingThatComesWhollyLaterIsMeasuredWithAllOfItsContact) {
+  Blocks layer;
+  layer.analysis = "physics = \"heat\"\n";
+  layer.upper_time = "4";
+  layer.upper_start = "\"700 degC\"";
+  layer.time = "[time]\nend = \"6 s\"\nstep = \"1 s\"\n";
+  layer.more = film("lower_y_min", 1000);
+  std::string text = layer.text();
+  const std::string card = "material = \"" + layer.material + "\"";
+  text.replace(text.find(card), card.size(), "material = \"aluminium_99_7\"");
+  const CaseRun run = k_here.run("comes_later", text);  // a summary with an infinite modulus would be refused
+  EXPECT_TRUE(run.finished) << run.reason;
+}
+
 /// Hot layers on a support, with friction, as time steps adapt; the metal yields.
 Blocks laid(const std::string& steps = "adaptive = true\n") {
   Blocks block;
