@@ -67,6 +67,8 @@ const Section<InterfaceCard>& card_keys() {
 
 /// Returns how well a side fits; nothing if it does not.
 std::optional<int> score(const InterfaceSide& side, const InterfacePartner& partner) {
+  // The longest pattern that matches the material counts, so that a card for one alloy precedes one for all
+  // of its kind; a role that matches counts more than any pattern.
   const std::string material = fs::path(partner.material).stem().string();
   int best = side.materials.empty() ? 0 : -1;
   for (const std::string& pattern : side.materials)
@@ -82,6 +84,7 @@ std::optional<int> score(const InterfaceSide& side, const InterfacePartner& part
 
 }  // namespace
 
+/// A star stands for any characters: it is tried for every number of them.
 bool matches(std::string_view pattern, std::string_view text) {
   if (pattern.empty()) return text.empty();
   if (pattern.front() != '*')
@@ -91,6 +94,7 @@ bool matches(std::string_view pattern, std::string_view text) {
   return false;
 }
 
+/// Folders of interfaces are next to those of materials, in the same order.
 std::vector<fs::path> interface_folders() {
   std::vector<fs::path> folders;
   for (const fs::path& materials : material_folders()) {

@@ -101,6 +101,7 @@ void change(Function& f, double factor, double shift, const std::string& what) {
   if (f.place != nullptr)
     throw InputError(f.where, fmt::format("{} is a function of place and cannot be varied", what),
                      "a number or a table");
+  // The arguments and the extrapolation of a table stay; only its values change.
   const Table& old = f.table;
   std::vector<double> x(old.x().begin(), old.x().end()), y(old.y().begin(), old.y().end());
   for (double& value : y) value = value * factor + shift;
@@ -146,6 +147,7 @@ void vary(ThermalConditionSpec& c, const ConditionFactors& by) {
     throw InputError(c.where, what + " has no temperature to vary", "coefficient, which is a factor");
 }
 
+/// Spreads of temperatures are shifts, all others are relative or factors.
 void check_spreads(const SpreadSpec& spreads) {
   const auto check = [](const std::optional<material::Spread>& spread, bool temperature,
                         const std::string& key, const std::string& of) {
@@ -257,6 +259,7 @@ void vary_conditions(CaseSpec& spec) {
       vary(condition, by->second);
 }
 
+/// Contacts are varied later than all else, because interfaces become contacts only with the mesh.
 void vary_contacts(CaseSpec& spec) {
   check_names(spec.vary.contacts, spec.contacts, "contact", spec.vary.where);
   check_names(spec.spread.contacts, spec.contacts, "contact", spec.spread.where);

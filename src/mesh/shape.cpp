@@ -28,6 +28,7 @@ double barycentric_gradient(int a, int i) {
   return a == 0 ? -1.0 : (a == i + 1 ? 1.0 : 0.0);
 }
 
+/// Values of linear or quadratic simplices: vertices first, then the middles of edges.
 void simplex_values(int dim, int order, Edges edges, const Point& xi, std::span<double> v) {
   const auto l = barycentric(dim, xi);
   const auto n = as_size(dim) + 1;
@@ -37,6 +38,7 @@ void simplex_values(int dim, int order, Edges edges, const Point& xi, std::span<
       v[n + e] = 4 * l[as_size(edges[e].first)] * l[as_size(edges[e].second)];
 }
 
+/// The gradients of these by the product rule, with the constant gradients of the barycentric coordinates.
 void simplex_gradients(int dim, int order, Edges edges, const Point& xi, std::span<double> g) {
   const auto l = barycentric(dim, xi);
   const auto d = as_size(dim);
@@ -61,6 +63,7 @@ struct CubeNode {
   std::array<int, 3> c{};
 };
 
+/// A vertex, or the middle between the two vertices of an edge.
 CubeNode cube_node(int dim, int a, Edges edges) {
   const int vertices = 1 << dim;
   if (a < vertices) return {k_corner[as_size(a)]};
@@ -137,6 +140,7 @@ Shape face_shape(Shape shape) {
   return row_of(shape).face;
 }
 
+/// Faces have rows of one width in the table; a narrower face uses the first numbers of its row.
 std::span<const int> face_nodes(Shape shape, int face) {
   assert(face >= 0 && face < face_count(shape));
   const ShapeRow& row = row_of(shape);

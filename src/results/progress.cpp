@@ -15,6 +15,7 @@
 
 namespace solidus::results {
 
+/// Two units at most, as long as people read them.
 std::string duration_text(double seconds) {
   if (seconds < 1) return fmt::format("{:.0f} ms", 1000 * std::max(seconds, 0.0));
   if (seconds < 10) return fmt::format("{:.1f} s", seconds);
@@ -45,6 +46,8 @@ void Progress::begin(double heat_content) {
   line(head + fmt::format(" {:>12}  {}", "left", "why this step"));
 }
 
+/// The fraction of the run that is done: of its time, or of the melt that was there at the start where the
+/// run ends with it, whichever is more.
 double Progress::share_done(const coupling::StepRecord& record) {
   const double span = options_.end - options_.start;
   const double of_time = span > 0 ? std::clamp((record.time - options_.start) / span, 0.0, 1.0) : 1.0;
@@ -56,6 +59,7 @@ double Progress::share_done(const coupling::StepRecord& record) {
   return std::clamp(of_melt, of_time, 1.0);
 }
 
+/// An estimate of the computing time that is left, from the last steps.
 std::string Progress::left_text(const coupling::StepRecord& record, double share) const {
   const double done = record.time - options_.start;
   const double end = share > 0 ? options_.start + done / share : options_.end;
@@ -111,6 +115,7 @@ void Progress::end(const std::string& outcome, const std::string& profile) {
   out_ << profile << std::flush;
 }
 
+/// Removes the bar, which is the last line on a terminal, and writes below what is there.
 void Progress::line(const std::string& text) {
   if (bar_) out_ << "\r\033[K";
   bar_ = false;

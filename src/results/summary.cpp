@@ -42,6 +42,7 @@ Json by_name(const std::vector<T>& list, std::string T::*key, Json (*members)(co
   return json;
 }
 
+/// The viscosity that the program has chosen for a melt, and what it was measured against.
 Json melt_members(const ChosenMelt& melt) {
   Json json;
   json.add("viscosity[Pa s]", melt.modulus * melt.time)
@@ -51,6 +52,7 @@ Json melt_members(const ChosenMelt& melt) {
   return json;
 }
 
+/// Where and when liquid metal had left its wall.
 Json left_wall_members(const LeftWall& wall) {
   Json json;
   json.add("largest_gap[m]", wall.gap)
@@ -60,6 +62,7 @@ Json left_wall_members(const LeftWall& wall) {
   return json;
 }
 
+/// Steps that were accepted although augmentations had not converged, with the largest penetration.
 Json unsettled_members(const UnsettledAugmentations& found) {
   Json json;
   json.add("steps", found.steps).add("largest_penetration_over_face", found.penetration);
@@ -95,6 +98,7 @@ MeshCounts count(const mesh::Mesh& mesh) {
   return counts;
 }
 
+/// The largest resident memory of this process so far, and its maximum and sum over all processes.
 PeakMemory peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -36,6 +36,8 @@ void check_direction(const cases::RigidSurfaceSpec& s, const char* key, const st
     throw InputError(s.where, fmt::format("'{}' of {} has no length", key, text(s)), "a direction");
 }
 
+/// A shape has a point and, by its kind, a normal or an axis; in two dimensions axes are those of the
+/// analysis.
 void check_shape(const cases::RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
   check_size(s, "point", s.point.size(), dimension);
   if (s.shape == Shape::plane) return check_direction(s, "normal", s.normal, dimension);
@@ -53,6 +55,7 @@ void check_shape(const cases::RigidSurfaceSpec& s, AnalysisKind kind, int dimens
                                                         : "no axis: it is that of revolution");
 }
 
+/// Refuses motions that the kind of analysis does not have, and rotations that are not complete.
 void check_motion(const cases::RigidSurfaceSpec& s, AnalysisKind kind, int dimension) {
   const auto refuse = [&](const char* key, const char* allowed) {
     throw InputError(s.where,

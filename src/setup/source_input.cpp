@@ -62,9 +62,12 @@ void check_path(const cases::PathSpec& path, const std::string& owner, const Sou
          fmt::format("from and to with {} coordinates each, and speed", dimension == 3 ? "3" : "2 or 3"));
   if (line && place(path.from) == place(path.to))
     fail("has a path without a length", "from and to that differ");
+  // The file is read here too, so that its mistakes are found before a mesh is made.
   travel_path(path, dimension, where);  // its file
 }
 
+/// Refuses analyses in which a travelling source has no meaning, names that two columns would share, and
+/// incomplete shapes and paths.
 void check_sources(const cases::CaseSpec& spec) {
   check_names(spec.sources, "[[source]]");
   for (const cases::SourceSpec& s : spec.sources) {
@@ -84,6 +87,7 @@ void check_sources(const cases::CaseSpec& spec) {
   }
 }
 
+/// A line is a path of two points, at the end of which the source is off.
 TravelPath travel_path(const cases::PathSpec& p, int dimension, const SourceLocation& where) {
   if (!p.file.empty()) return read_travel_path(p.file, dimension, p.start, where);
   const Position a = place(p.from), b = place(p.to);
@@ -99,6 +103,7 @@ heat::TravellingShape travelling_shape(const cases::SourceSpec& s, int dimension
   shape.depth = s.depth.value_or(0);
   shape.front = s.front.value_or(0);
   shape.rear = s.rear.value_or(shape.front);
+  // Without a share the density has no jump between front and rear: each gets the power of its length.
   shape.front_share =
       s.front_share.value_or(shape.front > 0 ? shape.front / (shape.front + shape.rear) : 0.5);
   // The beam comes from above where no direction is given.
@@ -127,6 +132,7 @@ void add_sources(const cases::CaseSpec& spec, heat::ThermalConditions& condition
   }
 }
 
+/// Times at which steps have to end: where the source is switched, and corners of its path.
 std::vector<double> source_times(const cases::SourceSpec& source, int dimension, double from, double to) {
   constexpr double k_turn = 0.05;  // of the heading, or of the speed as a share
   const TravelPath path = travel_path(source.path, dimension, source.where);

@@ -34,6 +34,7 @@ Json numbers(std::span<const double> values) {
   return out;
 }
 
+/// A material card for the report: tables as they are used, with their sources and ranges.
 Json card(const material::Material& m) {
   Json out;
   // Title and density at the head, in SI units with their names.
@@ -83,6 +84,7 @@ Json::Array cards(const fs::path& folder) {
 
 }  // namespace
 
+/// One page of all folders; materials are looked up where the folder holds its case.
 void write_report(const std::vector<std::string>& folders, const std::string& output) {
   std::vector<results::ReportedRun> runs;
   for (const std::string& folder : folders) {

@@ -104,6 +104,7 @@ double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, doubl
   return held;
 }
 
+/// The whole list of shares is kept beside the filtered one, so that bodies can come back.
 void NodalEnthalpy::set_active(const linear::ActiveSet& active) {
   if (!all_) all_ = shares_;
   std::vector<char> kept;
@@ -111,17 +112,21 @@ void NodalEnthalpy::set_active(const linear::ActiveSet& active) {
   filter(*all_, kept);
 }
 
+/// Bodies that are not kept never come back: no second list is needed.
 void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
   filter(shares_, kept);
   all_.reset();
 }
 
+/// The volume of metal that moves is scaled by how much of the room it still fills; the rooms themselves are
+/// kept for volumes and fractions.
 void NodalEnthalpy::hold(std::span<const char> moves, std::span<const double> held) {
   if (!rooms_) rooms_ = shares_;
   shares_ = *rooms_;
   shares_.scale([&](Index node, int body) { return moves[as_size(body)] != 0 ? held[as_size(node)] : 1.0; });
 }
 
+/// The part of a node's heat that some of its bodies hold, all at one temperature and one share of a plateau.
 double NodalEnthalpy::heat_of(std::span<const char> of, Index node, double heat, double temperature) const {
   const double share = plateau_share(node, heat, temperature);
   double sum = 0;
@@ -143,12 +148,14 @@ void NodalEnthalpy::filter(const NodeShares& from, std::span<const char> kept) {
   shares_ = std::move(left);
 }
 
+/// The enthalpy at a temperature, below its jump where a phase changes there.
 double NodalEnthalpy::lower(Index node, double temperature) const {
   double h = 0;
   for (const NodeShare s : shares_[node]) h += s.weight * curve(s).lower(temperature);
   return h;
 }
 
+/// The enthalpy at a temperature, above its jump where a phase changes there.
 double NodalEnthalpy::upper(Index node, double temperature) const {
   double h = 0;
   for (const NodeShare s : shares_[node]) h += s.weight * curve(s).upper(temperature);
@@ -281,6 +288,7 @@ double NodalEnthalpy::volume(Index node, int body) const {
   return 0.0;
 }
 
+/// Within a jump the solid fraction is linear in the heat.
 double NodalEnthalpy::solid_volume(Index node, int body, double heat, double temperature) const {
   const double all = volume(node, body);
   const material::PhaseChange* change = materials_[as_size(body)].solidification();

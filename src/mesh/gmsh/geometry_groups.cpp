@@ -50,6 +50,7 @@ std::array<Point, 2> bounding_box(int dimension, int tag) {
   return box;
 }
 
+/// Finds the entities of a group, by whichever of number, label or box it has.
 class Choice {
  public:
   Choice(const std::string& path, double unit) : path_(path), unit_(unit) {
@@ -80,6 +81,7 @@ class Choice {
     return group.numbers;
   }
 
+  /// A label fits as a whole or by its last part; labels of the file are listed where none fits.
   std::vector<int> by_label(const GeometryGroup& group, int dimension) const {
     std::vector<int> found;
     std::set<std::string> labels;
@@ -97,6 +99,7 @@ class Choice {
     return found;
   }
 
+  /// Entities whose whole bounding box lies in that of the group, with room for the slack of Gmsh's boxes.
   std::vector<int> by_box(const GeometryGroup& group, int dimension) const {
     std::vector<int> found;
     for (const int tag : entities(dimension)) {

@@ -22,6 +22,7 @@ void transform_line(const std::vector<double>& f, std::vector<double>& out) {
   const int n = static_cast<int>(f.size());
   std::vector<int> apex(f.size(), 0);
   std::vector<double> border(f.size() + 1, 0);
+  // Parabolas whose apex others cover are removed from the envelope as they are found.
   int k = -1;
   const auto value = [&](int i) { return f[as_size(i)]; };
   for (int q = 0; q < n; ++q) {
@@ -64,6 +65,7 @@ MetalGrid::MetalGrid(const RawMesh& mesh, const std::vector<std::string>& bodies
       high[i] = std::max(high[i], extent.high[i]);
     }
   }
+  // So many cubes as asked for fill the volume of the bodies.
   edge_ = std::cbrt(volume / static_cast<double>(number));
   // A layer of cells around the metal has none, so that every cube of it has a nearest cell outside; the
   // first with metal begin at the lowest faces, where as many are counted too much as too little.
@@ -100,6 +102,8 @@ void MetalGrid::fill(const RawMesh& mesh, const std::vector<std::string>& bodies
   if (cubes_.empty()) cube_of_[0] = 0, cubes_.push_back(0);
 }
 
+/// The depth of a cube below the surface: its distance to the nearest cell without metal, one direction after
+/// the other.
 void MetalGrid::measure_depth() {
   std::vector<double> squared(cube_of_.size());
   for (std::size_t i = 0; i < squared.size(); ++i) squared[i] = cube_of_[i] < 0 ? 0 : k_infinite;
@@ -142,11 +146,14 @@ std::vector<int> MetalGrid::neighbours(std::size_t cube) const {
   return around;
 }
 
+/// No neighbour lies deeper: the cube is on the middle line or surface of a wall, or in the centre of a thick
+/// place.
 bool MetalGrid::on_ridge(std::size_t cube) const {
   const std::vector<int> around = neighbours(cube);
   return std::ranges::none_of(around, [&](int other) { return depth_[as_size(other)] > depth_[cube]; });
 }
 
+/// Whether a neighbour is reached from another start: metal between two risers, say.
 bool MetalGrid::between_places(std::size_t cube, const WaysInMetal& ways) const {
   return std::ranges::any_of(neighbours(cube),
                              [&](int other) { return ways.from[as_size(other)] != ways.from[cube]; });
@@ -157,6 +164,7 @@ std::size_t MetalGrid::cube_at(const Point& point) const {
   for (std::size_t d = 0; d < 3; ++d)
     i[d] = std::clamp(static_cast<int>((point[d] - low_[d]) / edge_), 0, n_[d] - 1);
   if (const int cube = cube_of_[cell(i[0], i[1], i[2])]; cube >= 0) return as_size(cube);
+  // A point outside of the metal has the nearest cube.
   std::size_t nearest = 0;
   double least = k_infinite;
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
@@ -176,6 +184,8 @@ double MetalGrid::volume_in(const Point& middle, double radius) const {
   return static_cast<double>(inside) * edge_ * edge_ * edge_;
 }
 
+/// The width of the widest way from a cube to each other one, as in Dijkstra's search with the least depth
+/// along a way in place of its length.
 std::vector<double> MetalGrid::widest_ways(std::size_t from) const {
   std::vector<double> width(cubes_.size(), 0);
   std::priority_queue<std::pair<double, std::size_t>> queue;
@@ -208,6 +218,8 @@ WaysInMetal MetalGrid::beginnings(const std::vector<WayStart>& starts) const {
   return ways;
 }
 
+/// Dijkstra's search from all starts at once: the length of the shortest way, and the start that it comes
+/// from.
 WaysInMetal MetalGrid::shortest_ways(const std::vector<WayStart>& starts) const {
   WaysInMetal ways = beginnings(starts);
   using Entry = std::pair<double, std::size_t>;

@@ -71,6 +71,7 @@ void give_up_reading_when(bool (*asked)()) {
 Reader::Reader(const MeshSource& source, const ReaderLimits& limits, const TimeOfWay& time)
     : source_(source), limits_(limits), time_(time) {}
 
+/// A reader that is still at work is ended: its answer is no longer wanted.
 Reader::~Reader() {
   if (pid_ > 0) {
     ::kill(pid_, SIGKILL);
@@ -95,6 +96,8 @@ Reader::Pipes Reader::open_pipes() {
   return pipes;
 }
 
+/// Starts the program with three standard descriptors that lead nowhere and the two pipes; it inherits
+/// nothing else.
 void Reader::start() {
   program_ = reader_program(source_.path);
   const Pipes pipes = open_pipes();
@@ -120,6 +123,8 @@ void Reader::start() {
                    k_same_build);
 }
 
+/// Reads in a copy of this process, for formats that need no other program: quicker, and as safe from
+/// crashes.
 void Reader::fork(ReadRequest* read) {
   program_ = program_path().string();
   const Pipes pipes = open_pipes();
@@ -168,6 +173,7 @@ void Reader::request(const CastingGeometry* casting) {
   std::signal(SIGPIPE, before);
 }
 
+/// Writes as much as the pipe takes, and looks after time and signals while it is full.
 void Reader::give(const void* bytes, std::size_t n) {
   const char* at = static_cast<const char*>(bytes);
   while (n > 0) {
@@ -191,6 +197,8 @@ void Reader::wait_for(int descriptor, short event) {
 }
 
 void Reader::check_time() {
+  // Limits are of processor time where they choose between ways of meshing, so that a busy machine meshes
+  // alike; the limit of the clock ends what hangs.
   if (clockid_t clock = 0; clock_getcpuclockid(pid_, &clock) == 0) {
     timespec time{};
     if (clock_gettime(clock, &time) == 0)
@@ -245,6 +253,7 @@ void Reader::hear(const MeshingOutlook& outlook) {
         source_.path, text);
 }
 
+/// Reads until all bytes are there; the end of the pipe is the end of the reader.
 void Reader::take(void* bytes, std::size_t n) {
   char* at = static_cast<char*>(bytes);
   while (n > 0) {
@@ -257,6 +266,7 @@ void Reader::take(void* bytes, std::size_t n) {
   }
 }
 
+/// How the reader ended; nothing where it closed its pipe and goes on.
 std::optional<int> Reader::status() {
   constexpr std::chrono::milliseconds k_patience(1000), k_tick(5);
   const Clock::time_point since = Clock::now();

@@ -103,6 +103,7 @@ GeometryGroup take_group_choice(const TakeBytes& take) {
   return group;
 }
 
+/// A block of elements, refused where a number in it could lead out of the mesh.
 RawBlock take_block(const TakeBytes& take, double& left, std::size_t n_nodes) {
   const auto shape = take_number<int>(take);
   if (shape < 0 || shape > static_cast<int>(Shape::hex20)) throw MessageError("an element of no shape");
@@ -124,6 +125,7 @@ void put_text(const std::string& text, const PutBytes& put) {
   put(text.data(), text.size());
 }
 
+/// A text says its length first; one that is too long is not taken.
 std::string take_text(const TakeBytes& take, std::size_t longest) {
   const auto n = take_number<std::uint64_t>(take);
   if (n > longest) throw MessageError("a text is longer than its limit");
@@ -324,6 +326,7 @@ RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
   return mesh;
 }
 
+/// Writes all bytes to a pipe, in as many pieces as it takes.
 void put_all(int descriptor, const void* bytes, std::size_t n) {
   const char* at = static_cast<const char*>(bytes);
   while (n > 0) {
@@ -335,6 +338,7 @@ void put_all(int descriptor, const void* bytes, std::size_t n) {
   }
 }
 
+/// Reads all bytes from a pipe; its end before is an error.
 void take_all(int descriptor, void* bytes, std::size_t n) {
   char* at = static_cast<char*>(bytes);
   while (n > 0) {

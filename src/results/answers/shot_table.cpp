@@ -60,6 +60,7 @@ std::vector<double> numbers_of(const ShotRow& row) {
           s.periodic ? 1.0 : 0.0};
 }
 
+/// The reverse of numbers_of(), for a table that a restart continues.
 ShotRow row_of(const std::vector<double>& n) {
   const auto kelvin = [](double celsius) { return celsius + k_zero_celsius; };
   ShotRow row;
@@ -115,6 +116,7 @@ std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& f
 ShotTable::ShotTable(const std::filesystem::path& path, std::optional<double> from)
     : table_(make_table(path, from)) {
   if (!from) return;
+  // A restart reads the rows of earlier shots, so that the end of the run can name the first one.
   std::ifstream file(path, std::ios::binary);
   std::string line, cell;
   std::getline(file, line);  // the header

@@ -40,6 +40,7 @@ struct Owner {
   std::string host;
 };
 
+/// Reads the mark of a lock; a file without one has no owner.
 Owner owner_of(int descriptor) {
   std::array<char, 512> text{};
   Owner owner;
@@ -58,6 +59,8 @@ class RunLock::Held {
   explicit Held(const fs::path& folder) : path_(folder / "lock") {
     while (!lock_what_is_there()) {
     }
+    // The lock is ours from here on. A mark of another computer may be that of a run whose lock this file
+    // system does not show.
     const Owner before = owner_of(descriptor_);
     if (!before.host.empty() && before.host != host_name()) {
       ::close(descriptor_);
@@ -101,6 +104,8 @@ class RunLock::Held {
                                     owner.host.empty() ? "this host" : owner.host),
                         k_advice);
     }
+    // The file may have been removed between opening and locking: then the lock is on a file that nobody
+    // finds.
     struct stat opened {
     }, named{};
     if (fstat(descriptor_, &opened) == 0 && stat(path_.c_str(), &named) == 0 &&
