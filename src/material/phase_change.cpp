@@ -67,6 +67,19 @@ double PhaseFraction::value(double temperature, double plateau_share) const {
   return fraction;
 }
 
+double PhaseFraction::mean_over_temperature(double before, double after) const {
+  // A state within an isothermal change has come to it or leaves it at constant fraction, on the side on
+  // which the other state lies.
+  const bool freezes = after > before;
+  for (const auto& [at, cold] : jumps_) {
+    const double hot = value(at), reached = freezes ? hot : cold, left = freezes ? cold : hot;
+    const bool ends_within = hot < after && after < cold;
+    if (hot < before && before < cold) before = ends_within ? reached : left;
+    if (ends_within) after = reached;
+  }
+  return 0.5 * (before + after);
+}
+
 double PhaseFraction::isothermal_share() const {
   double share = 0;
   for (std::size_t i = 1; i < points_.size(); ++i)

@@ -45,6 +45,11 @@ class PhaseFraction {
   /// f(Θ−) − share [f(Θ−) − f(Θ+)], elsewhere f(Θ).
   /// @param plateau_share  how far that change has come, from 0 (cold) to 1 (hot)
   double value(double temperature, double plateau_share) const;
+  /// The mean of f over the temperatures between two states of metal, which their fractions tell. What
+  /// changes at one temperature is not part of it: metal that completes an isothermal change and then cools
+  /// has the fraction of the cold side of that change at all temperatures that it passes. Over a range it is
+  /// the mean of both fractions.
+  double mean_over_temperature(double before, double after) const;
   double derivative(double temperature) const { return line(temperature).slope; }
   Lane derivative(const Lane& temperature) const { return line(temperature).slope; }
   double above(double temperature) const;  ///< the limit from the right; differs from below() at a jump only

@@ -5,11 +5,14 @@
 /// (material/melt.hpp). Once the network is coherent its dendrites contract with the temperature as solid
 /// metal does, whether melt can follow or not, and what is resisted is the rest:
 ///
-///   σ_ζ = ζ/Δt [ Δ(div u) − ψ Δe^s ],   ψ = ⟨(f̄_S − f_c)/(1 − f_c)⟩,   Δe^s = Δe^θ − (ΔV/V) Δf_S
+///   σ_ζ = ζ/Δt [ Δ(div u) − ψ Δe^s ],   ψ = ⟨(f̄_Θ − f_c)/(1 − f_c)⟩,   Δe^s = Δe^θ − (ΔV/V) Δf_S
 ///
-/// with f̄_S the mean of the step (phase_fields.hpp), f_c the coherency fraction and e^θ the volumetric
-/// thermal strain, whose part of freezing is that of melt which becomes solid in place: it moves no dendrite.
-/// The share ψ of the contraction of the solid that the network takes part in, and that it rises from
+/// with f̄_Θ the mean fraction over the temperatures of the step (phase_fields.hpp), f_c the coherency
+/// fraction and e^θ the volumetric thermal strain, whose part of freezing is that of melt which becomes solid
+/// in place: it moves no dendrite. Metal that completes its freezing at one temperature within the step does
+/// all of its contraction as a solid, f̄_Θ = 1 although it is mush in the step (f̄_S < 1): in place of ζ/Δt it
+/// has k_completed_stiffness bulk moduli, so that its contraction is that of its solid at any size of the
+/// step. The share ψ of the contraction of the solid that the network takes part in, and that it rises from
 /// coherency to one, is the model of Stangeland, Mo, Nielsen, Eskin and M'Hamdi (Metall. Mater. Trans. A 35
 /// (2004) 2903); the straight line is ours. All of σ_ζ Δ(div u) becomes heat.
 #pragma once
@@ -25,7 +28,7 @@ namespace solidus::mechanics {
 
 /// The network of dendrites of an element in a step.
 struct Network {
-  Lane solid_fraction;      ///< f̄_S
+  Lane contracting;         ///< f̄_Θ
   Lane stiffness;           ///< ζ/Δt [Pa]; zero in solid metal
   Lane divergence;          ///< div u at t_n
   Lane old_thermal_strain;  ///< e^θ that the step before has ended with
@@ -45,7 +48,7 @@ class Compaction {
 
   void begin_step(Index batch, const Network& network) {
     const std::size_t i = at(batch);
-    const Lane above = (network.solid_fraction - Lane(coherency_)) / Lane(1 - coherency_);
+    const Lane above = (network.contracting - Lane(coherency_)) / Lane(1 - coherency_);
     const Lane contraction = network.thermal_strain - network.old_thermal_strain - network.freezing;
     stiffness_[i] = network.stiffness;
     share_[i] = max(Lane(0.0), min(Lane(1.0), above));

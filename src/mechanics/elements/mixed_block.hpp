@@ -342,8 +342,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
  private:
   Network network(const StepStart& start, Index batch, const Lane& fraction) const {
     const std::span<const double> freezing = start.phases.freezing;
-    return {.solid_fraction = fraction,
-            .stiffness = start.compaction_stiffness(fraction),
+    const Lane contracting =
+        freezing.empty() ? fraction : within_nodes(this->geometry_, batch, 0, start.phases.contracting);
+    return {.contracting = contracting,
+            .stiffness = start.compaction_stiffness(fraction, contracting),
             .divergence = old_divergence_[at(batch)],
             .old_thermal_strain = start.old_history->values[flow_place(batch) + dim + 1],
             .thermal_strain = elastic_part(this->law_, this->properties_[at(batch)]).thermal_strain,

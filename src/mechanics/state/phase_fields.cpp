@@ -59,6 +59,7 @@ NodalPhases::NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Mat
     block.nodes.shrink_to_fit();
     solid_fraction_.resize(n_nodes_, 1.0);
     freezing_.resize(n_nodes_, 0.0);
+    contracting_.resize(n_nodes_, 1.0);
     // Straining of phase changes is counted from the initial state of the node, taken as molten within a
     // plateau.
     if (!block.strains) continue;
@@ -109,6 +110,7 @@ PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
       const double old = before.empty() ? now : before[place(i, of)];
       solid_fraction_[i] = before.empty() ? now : 0.5 * (now + old);
       freezing_[i] = freezing->volume_change * (now - old);
+      contracting_[i] = freezing->fraction.mean_over_temperature(old, now);
     }
     // Straining is counted from the initial state of the node.
     if (of.strains)
@@ -118,6 +120,7 @@ PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
   if (freezing != nullptr) {
     fields.solid_fraction = solid_fraction_;
     fields.freezing = freezing_;
+    fields.contracting = contracting_;
   }
   if (of.strains) fields.straining = straining_;
   return fields;
@@ -125,7 +128,7 @@ PhaseFields NodalPhases::evaluate(std::size_t block, const FractionPlace& at,
 
 std::size_t NodalPhases::bytes() const {
   std::size_t total = (solid_fraction_.capacity() + straining_.capacity() + freezing_.capacity() +
-                       initial_solid_fraction_.capacity()) *
+                       contracting_.capacity() + initial_solid_fraction_.capacity()) *
                       sizeof(double);
   for (const OfBlock& block : blocks_)
     total += block.nodes.capacity() * sizeof(Index) + block.initial_straining.capacity() * sizeof(double);

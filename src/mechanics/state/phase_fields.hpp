@@ -10,9 +10,10 @@
 /// (2.65, 2.75). The strain of a step is that of its end. The solid fraction is the mean of the fractions
 /// that the step before has ended with and that this one ends with: metal that freezes within a step
 /// contracts while it freezes, not as the solid that it has become. Stiffness, viscosity, flow of melt and
-/// pores of a step follow that mean, and metal is solid in a step if it was so at both ends. Where the step
-/// ends the scheme says (4.81): in the splits at Θ_n of the mechanical phase, in those that iterate within
-/// the step at Θ_{n+1}.
+/// pores of a step follow that mean, and metal is solid in a step if it was so at both ends. Only the thermal
+/// contraction of a network of dendrites follows the mean over the temperatures of the step instead: metal
+/// that completes an isothermal change within the step cools as a solid. Where the step ends the scheme says
+/// (4.81): in the splits at Θ_n of the mechanical phase, in those that iterate within the step at Θ_{n+1}.
 #pragma once
 
 #include <span>
@@ -30,6 +31,9 @@ struct PhaseFields {
   std::span<const double> solid_fraction;  ///< f_S,i of the step; empty: the material does not melt, f_S = 1
   std::span<const double> straining;       ///< e^pc_i − e^pc_i(Θ_0); empty: zero
   std::span<const double> freezing;        ///< (ΔV/V) Δf_S,i of freezing in the step; empty: zero
+  /// The mean of f_S over the temperatures of the step, with which a network of dendrites contracts; empty as
+  /// solid_fraction.
+  std::span<const double> contracting;
 };
 
 /// Temperatures at which fractions are taken, [local node].
@@ -77,7 +81,7 @@ class NodalPhases {
   BodyFields fields_;
   std::vector<OfBlock> blocks_;                 ///< [block of the mesh]
   std::vector<double> initial_solid_fraction_;  ///< at Θ_0, [local node][field]; empty: nothing melts
-  std::vector<double> solid_fraction_, straining_, freezing_;  ///< work, [local node]
+  std::vector<double> solid_fraction_, straining_, freezing_, contracting_;  ///< work, [local node]
 };
 
 }  // namespace solidus::mechanics

@@ -58,6 +58,21 @@ TEST(PhaseFraction, TheIsothermalShareIsThatOfAllJumps) {
   EXPECT_EQ(PhaseFraction::linear(800, 900).isothermal_share(), 0);
 }
 
+TEST(PhaseFraction, TheMeanOverTemperatureLeavesOutWhatChangesAtOneTemperature) {
+  const PhaseFraction f = PhaseFraction::table({{650, 1}, {650, 0.3}, {670, 0.1}, {690, 0}});
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.1, 0.2), 0.15) << "over a range";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.2, 0.6), 0.25) << "down to the change";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.6, 1), 1) << "from within it to the solid";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(1, 0.6), 1) << "and back";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.6, 0.2), 0.25) << "from within it to the mush";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.4, 0.6), 0.3) << "within it nothing cools";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.2, 1), 0.6) << "through it";
+  const PhaseFraction pure = PhaseFraction::linear(900, 900);
+  EXPECT_DOUBLE_EQ(pure.mean_over_temperature(0, 0.5), 0) << "melt that begins to freeze";
+  EXPECT_DOUBLE_EQ(pure.mean_over_temperature(0.5, 1), 1);
+  EXPECT_DOUBLE_EQ(pure.mean_over_temperature(1, 1), 1);
+}
+
 TEST(PhaseFraction, TableTakesBothDirectionsAndAnIsothermalPart) {
   const auto rising = PhaseFraction::table({{850, 1}, {850, 0.5}, {880, 0.2}, {888, 0}});
   const auto falling = PhaseFraction::table({{888, 0}, {880, 0.2}, {850, 0.5}, {850, 1}});

@@ -105,6 +105,19 @@ TEST(NodalPhases, AreSolidInAStepOnlyIfTheyWereSoAtBothEnds) {
   EXPECT_THAT(phases.evaluate(0, {cold, {}}, solid).solid_fraction, testing::Each(1.0));
 }
 
+TEST(NodalPhases, ContractAsSolidIfTheyCompleteAnIsothermalChangeInAStep) {
+  const mesh::Mesh mesh = shared_nodes();
+  const std::vector<material::Material> materials(
+      2, with({{"freezing", PhaseFraction::linear(900, 900), 4e5, -0.06, true}}));
+  const std::vector<double> initial(3, 1000.0), now = {900, 890, 800};
+  mechanics::NodalPhases phases(mesh, materials, initial);
+  const std::vector<double> before = {0.2, 0.8, 1}, share = {0.5, 0, 0};
+  const mechanics::PhaseFields step = phases.evaluate(0, {now, share}, before);
+  EXPECT_THAT(step.solid_fraction,
+              testing::ElementsAre(testing::DoubleEq(0.35), testing::DoubleEq(0.9), testing::DoubleEq(1)));
+  EXPECT_THAT(step.contracting, testing::ElementsAre(0, 1, 1));
+}
+
 TEST(NodalPhases, OfAMaterialWithoutPhaseChangesAreNone) {
   const mesh::Mesh mesh = shared_nodes();
   const std::vector<material::Material> materials(2, with({}));
