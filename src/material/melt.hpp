@@ -61,11 +61,6 @@ inline constexpr double k_melt_time = 0.01;
 /// η/Δt as shares of the bulk modulus: less leaves the linear solvers too few digits, more would make melt as
 /// stiff as what holds it in a step of microseconds.
 inline constexpr double k_least_step_share = 1e-8, k_most_step_share = 1e-2;
-/// Bulk moduli with which metal resists compaction in the step in which it completes its freezing at one
-/// temperature. A network has no memory of the steps before, so this stress ends with the step, and with it
-/// the strain that balances it. One modulus loses a third of that strain; ten make elements that complete
-/// their freezing together follow it so closely that they lock.
-inline constexpr double k_completed_stiffness = 3;
 /// Strength of the mush at coherency as a share of that of the shell, and the strain rate it is meant at
 /// [1/s].
 inline constexpr double k_mush_strength = 1e-2, k_mush_rate = 1e-3;

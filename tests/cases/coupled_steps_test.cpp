@@ -350,10 +350,10 @@ TEST(CoupledSteps, ABarOfZincCompletesItsFreezingWithinASteepFallOfItsTemperatur
   const std::string text = replaced(
       replaced(testing::square_bar_case(Piece::half, "half.msh", true), "aluminium_alsi7mg", "zinc_zamak5"),
       "680 degC", "425 degC");
-  const CaseRun run = k_here.run("bar_of_zinc", text, {"time.step=0.25 s", "time.end=40 s"});
-  // Steps of 0.0625 s find these gaps.
-  EXPECT_NEAR(testing::at(run.history, "gap_side[um]", 30), 11.68, 0.02 * 11.68);
-  EXPECT_NEAR(testing::at(run.history, "gap_side[um]", 40), 20.92, 0.01 * 20.92);
+  const CaseRun run = k_here.run("bar_of_zinc", text, {"time.step=1 s", "time.end=40 s"});
+  // Steps of 0.0625 s find these gaps. Without the contraction of the solid 14 and 10 % of them are missing.
+  EXPECT_NEAR(testing::at(run.history, "gap_side[um]", 30), 11.68, 0.07 * 11.68);
+  EXPECT_NEAR(testing::at(run.history, "gap_side[um]", 40), 20.92, 0.05 * 20.92);
 }
 
 // Converged values are of steps of 0.03 s.

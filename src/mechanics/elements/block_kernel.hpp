@@ -52,13 +52,13 @@ struct StepStart {
   Lane melt_viscosity(const Lane& solid_fraction) const {
     return melt->mush.at(solid_fraction, Lane(melt->viscosity(effective.dt)));
   }
-  /// ζ/Δt, what such melt or mush resists compaction with (compaction.hpp); zero in solid metal [Pa].
+  /// What such melt or mush resists compaction with (compaction.hpp): ζ/Δt, the bulk modulus where it
+  /// completes its freezing at one temperature, zero in solid metal [Pa].
   /// @param solid_fraction, contracting  the mean of the step and that over its temperatures
   Lane compaction_stiffness(const Lane& solid_fraction, const Lane& contracting) const {
     const LaneMask solid = solid_fraction >= Lane(1.0);
     const Lane viscous = melt_viscosity(select(solid, Lane(0.0), solid_fraction)) / Lane(effective.dt);
-    const Lane completed(material::k_completed_stiffness * melt->bulk);
-    return select(solid, Lane(0.0), select(contracting >= Lane(1.0), completed, viscous));
+    return select(solid, Lane(0.0), select(contracting >= Lane(1.0), Lane(melt->bulk), viscous));
   }
 };
 

@@ -11,10 +11,9 @@
 /// fraction and e^θ the volumetric thermal strain, whose part of freezing is that of melt which becomes solid
 /// in place: it moves no dendrite. Metal that completes its freezing at one temperature within the step does
 /// all of its contraction as a solid, f̄_Θ = 1 although it is mush in the step (f̄_S < 1): in place of ζ/Δt it
-/// has k_completed_stiffness bulk moduli, so that its contraction is that of its solid at any size of the
-/// step. The share ψ of the contraction of the solid that the network takes part in, and that it rises from
-/// coherency to one, is the model of Stangeland, Mo, Nielsen, Eskin and M'Hamdi (Metall. Mater. Trans. A 35
-/// (2004) 2903); the straight line is ours. All of σ_ζ Δ(div u) becomes heat.
+/// has its bulk modulus. The share ψ of the contraction of the solid that the network takes part in, and that
+/// it rises from coherency to one, is the model of Stangeland, Mo, Nielsen, Eskin and M'Hamdi (Metall. Mater.
+/// Trans. A 35 (2004) 2903); the straight line is ours. All of σ_ζ Δ(div u) becomes heat.
 #pragma once
 
 #include <cstddef>
