@@ -68,14 +68,15 @@ double PhaseFraction::value(double temperature, double plateau_share) const {
 }
 
 double PhaseFraction::mean_over_temperature(double before, double after) const {
-  // A state within an isothermal change has come to it or leaves it at constant fraction, on the side on
-  // which the other state lies.
+  // Temperature changes at constant fraction before a state within an isothermal change is reached and after
+  // it is left, on the side on which the other state lies. Between two states within it no temperature
+  // changes, and the mean is that of any step.
   const bool freezes = after > before;
   for (const auto& [at, cold] : jumps_) {
-    const double hot = value(at), reached = freezes ? hot : cold, left = freezes ? cold : hot;
-    const bool ends_within = hot < after && after < cold;
-    if (hot < before && before < cold) before = ends_within ? reached : left;
-    if (ends_within) after = reached;
+    const double hot = value(at);
+    const bool begins_within = hot < before && before < cold, ends_within = hot < after && after < cold;
+    if (begins_within && !ends_within) before = freezes ? cold : hot;
+    if (ends_within && !begins_within) after = freezes ? hot : cold;
   }
   return 0.5 * (before + after);
 }

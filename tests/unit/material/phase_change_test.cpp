@@ -65,7 +65,9 @@ TEST(PhaseFraction, TheMeanOverTemperatureLeavesOutWhatChangesAtOneTemperature) 
   EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.6, 1), 1) << "from within it to the solid";
   EXPECT_DOUBLE_EQ(f.mean_over_temperature(1, 0.6), 1) << "and back";
   EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.6, 0.2), 0.25) << "from within it to the mush";
-  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.4, 0.6), 0.3) << "within it nothing cools";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.4, 0.6), 0.5) << "within it no temperature changes";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.6, 0.4), 0.5) << "nor where a little melts again";
+  EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.6, 0.6), 0.6) << "nor where nothing freezes";
   EXPECT_DOUBLE_EQ(f.mean_over_temperature(0.2, 1), 0.6) << "through it";
   const PhaseFraction pure = PhaseFraction::linear(900, 900);
   EXPECT_DOUBLE_EQ(pure.mean_over_temperature(0, 0.5), 0) << "melt that begins to freeze";

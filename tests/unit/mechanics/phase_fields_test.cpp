@@ -115,7 +115,12 @@ TEST(NodalPhases, ContractAsSolidIfTheyCompleteAnIsothermalChangeInAStep) {
   const mechanics::PhaseFields step = phases.evaluate(0, {now, share}, before);
   EXPECT_THAT(step.solid_fraction,
               testing::ElementsAre(testing::DoubleEq(0.35), testing::DoubleEq(0.9), testing::DoubleEq(1)));
-  EXPECT_THAT(step.contracting, testing::ElementsAre(0, 1, 1));
+  EXPECT_THAT(step.contracting, testing::ElementsAre(testing::DoubleEq(0.35), 1, 1));
+  // Metal that stays within the change, or melts a little again, is not complete.
+  const std::vector<double> plateau(3, 900.0), stays = {0.5, 0.6, 0.999}, liquid = {0.5, 0.41, 0.01};
+  EXPECT_THAT(
+      phases.evaluate(0, {plateau, liquid}, stays).contracting,
+      testing::ElementsAre(testing::DoubleEq(0.5), testing::DoubleEq(0.595), testing::DoubleEq(0.9945)));
 }
 
 TEST(NodalPhases, OfAMaterialWithoutPhaseChangesAreNone) {
