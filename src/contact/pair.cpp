@@ -187,7 +187,7 @@ void ContactPair::follow_elements(const FacesThere& faces, const ContactPass& pa
   parts.partners.clear();  // of points that were there
   if (state != nullptr) {
     parts.history.follow_elements(before, displacement, pass.time, *state);
-    // What a new interface stores at once is part of the energy that comes.
+    // A new interface stores heat at once, which is counted with the energy of the elements that come.
     if (parts.heat.has_temperature()) {
       begin(*state, {.time = pass.time, .displacement = displacement, .temperature = pass.temperature});
       for (std::size_t p = 0; p < state->points.size(); ++p)

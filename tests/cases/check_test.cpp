@@ -38,7 +38,7 @@ std::vector<fs::path> case_files() {
       std::ifstream in(file.path());
       const std::string text((std::istreambuf_iterator<char>(in)), {});
       const auto has = [&text](const char* part) { return text.find(part) != std::string::npos; };
-      // What cases include may have bodies too, but no title.
+      // A file that cases include may have bodies as well, but it has no title.
       if (has("include = ") || (has("[[body]]") && has("title = "))) files.push_back(file.path());
     }
   }

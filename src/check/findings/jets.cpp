@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "check/finding_family.hpp"
+#include "numbers/index_casts.hpp"
 
 namespace solidus::check {
 
@@ -20,7 +21,7 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& /*a*/, const CaseM
   for (const cases::JetSpec& jet : spec.jets) {
     const auto film =
         std::ranges::find(spec.thermal_conditions, jet.name, &cases::ThermalConditionSpec::name);
-    const auto t = static_cast<std::size_t>(film - spec.thermal_conditions.begin());
+    const auto t = as_size(film - spec.thermal_conditions.begin());
     if (film == spec.thermal_conditions.end() || t >= m.surfaces.size() || m.surfaces[t].body == -1) continue;
     const double circle = std::numbers::pi * jet.radius * jet.radius, area = m.surfaces[t].area;
     if (area <= k_larger * circle) continue;

@@ -52,7 +52,7 @@ struct StepStart {
   Lane melt_viscosity(const Lane& solid_fraction) const {
     return melt->mush.at(solid_fraction, Lane(melt->viscosity(effective.dt)));
   }
-  /// What such melt or mush resists compaction with (compaction.hpp): ζ/Δt, the bulk modulus where it
+  /// The stiffness of such melt or mush against compaction (compaction.hpp): ζ/Δt, the bulk modulus where it
   /// completes its freezing at one temperature, zero in solid metal [Pa].
   /// @param solid_fraction, contracting  the mean of the step and that over its temperatures
   Lane compaction_stiffness(const Lane& solid_fraction, const Lane& contracting) const {

@@ -1,4 +1,4 @@
-/// What the points of a block add up in a step, lane by lane.
+/// Work, dissipation and entropy of a step, summed over the points of a block, lane by lane.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ class StressOfWork {
     share_ = start.stress_share;
     given_ = start.at_work;
   }
-  /// Of the end of the step in the mean.
+  /// The weight of the stress at the end of the step in the mean of both ends.
   double share() const { return share_; }
   /// The stress of an earlier solve; null: there is none.
   const StressAtWork* given() const { return given_; }
