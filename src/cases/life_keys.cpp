@@ -56,7 +56,7 @@ Section<DieLifeSpec> die_life_keys() {
           "[[0.004, 20000], [0.01, 800]] }; between and beyond its points straight in both logarithms.");
   s.key("source", &D::source)
       .initially("")
-      .doc("Where the constants come from; the log of the run says it beside the life.");
+      .doc("Where the constants come from; the log of the run says it next to the life.");
   // Limits of use besides fatigue.
   s.quantity("worn_depth", &D::worn_depth, "m")
       .positive()

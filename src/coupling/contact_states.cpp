@@ -65,7 +65,7 @@ void warn_of_early_end(const contact::ContactPair& pair) {
   logging::warn(
       "contact '{}': in some steps, shorter ones too, the augmentations of the Lagrangian do not converge; "
       "they end at their last equilibrium, with penetrations above penetration_tolerance "
-      "(turns_that_did_not_settle in summary.json); normal = \"penalty\" needs none",
+      "(augmentations_that_did_not_converge in summary.json); normal = \"penalty\" needs none",
       pair.parts().spec.name);
 }
 

@@ -152,9 +152,10 @@ std::string summary_json(const Summary& s) {
   if (!s.melt.empty()) json.add("melt", by_name(s.melt, &ChosenMelt::body, melt_members));
   if (!s.left_walls.empty())
     json.add("liquid_metal_left_its_wall", by_name(s.left_walls, &LeftWall::contact, left_wall_members));
+  // The second key is the name of versions up to 0.2, for scripts that read it.
   if (!s.unsettled.empty())
-    json.add("turns_that_did_not_settle",
-             by_name(s.unsettled, &UnsettledAugmentations::contact, unsettled_members));
+    for (const char* key : {"augmentations_that_did_not_converge", "turns_that_did_not_settle"})
+      json.add(key, by_name(s.unsettled, &UnsettledAugmentations::contact, unsettled_members));
   if (s.overview) json.add("understood", results::json(*s.overview));
   json.add("warnings", std::move(warnings));
   return json.text();

@@ -183,6 +183,23 @@ TEST(Summary, SaysHowTheRunWent) {
   EXPECT_GE(summary.memory.largest, summary.memory.first);
 }
 
+TEST(Summary, NamesStepsWhoseAugmentationsDidNotConvergeAlsoByTheirEarlierKey) {
+  Summary summary;
+  EXPECT_EQ(summary_json(summary).find("augmentations_that_did_not_converge"), std::string::npos);
+  summary.unsettled = {{"wall", 3, 2e-4}};
+  const std::string text = summary_json(summary);
+  for (const char* key : {"augmentations_that_did_not_converge", "turns_that_did_not_settle"}) {
+    const std::string members = fmt::format(R"(  "{}": {{
+    "wall": {{
+      "steps": 3,
+      "largest_penetration_over_face": 0.0002
+    }}
+  }})",
+                                            key);
+    EXPECT_NE(text.find(members), std::string::npos) << members << " in\n" << text;
+  }
+}
+
 TEST(Balance, IsTheLargestOverTheMean) {
   const int rank = processes::rank(), n_processes = processes::count();
   EXPECT_DOUBLE_EQ(largest_over_mean(0), 1);
