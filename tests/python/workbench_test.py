@@ -68,6 +68,8 @@ elif verb == "new":
 elif verb == "check":
     print("warning: case.toml:12:1: 'casting' is thin at (1, -2, 3e1) mm\\n  look there", file=sys.stderr)
     print("The case is in order.")
+elif verb == "report" and "--pdf" in words:
+    pathlib.Path(words[0], "report.pdf").write_bytes(b"%PDF-1.4")
 elif verb == "run":
     folder = pathlib.Path(given["output"])
     folder.mkdir(parents=True)
@@ -259,6 +261,16 @@ class Served(unittest.TestCase):
         status, state = self.post("make", seen=state["edits"])
         self.assertEqual(status, 200, state)
         return self.at_rest()
+
+    def test_pages_for_the_customer_are_printed_and_served(self):
+        self.made()
+        self.post("run", physics="heat")
+        self.assertIsNone(self.at_rest()["runs"][0]["printed"])
+        self.assertEqual(self.raw("GET", f"/{self.server.token}/run/run_1/printed")[0], 404)
+        self.assertEqual(self.post("print", run="../plate")[0], 400)
+        self.assertEqual(self.post("print", run="run_1")[0], 200)
+        self.assertEqual(self.at_rest()["runs"][0]["printed"], "report.pdf")
+        self.assertEqual(self.raw("GET", f"/{self.server.token}/run/run_1/printed"), (200, b"%PDF-1.4"))
 
     # Who is answered
 

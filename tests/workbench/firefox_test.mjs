@@ -14,7 +14,7 @@ export async function checkInFirefox(check, server) {
   try {
     await firefox.go(server.address);
     check("Firefox shows the bodies", await until("page.solidus.stage.picture.bodies.length > 0 && page.solidus.stage.picture.triangles > 0"));
-    const [x, y] = await firefox.run("(() => { const b = document.querySelector('#stage').getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()");
+    const [x, y] = await firefox.run("(() => { const b = document.querySelector('#stage').getBoundingClientRect(), { picture } = page.solidus.stage, { low, high } = picture.bodies[0], p = picture.project([0, 1, 2].map((i) => (low[i] + high[i]) / 2)); return [b.left + p[0], b.top + p[1]]; })()");
     await firefox.click(Math.round(x), Math.round(y));
     check("a click in Firefox says what lies there", await until("!document.querySelector('.place-card').hidden && /mm of it below/.test(document.querySelector('.place-card').textContent)"));
     await firefox.run("document.querySelector('#place-probe').click()");

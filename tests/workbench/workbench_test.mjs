@@ -95,6 +95,10 @@ async function ofACase(server, desk) {
   check("an answer leads to its place in the picture", await desk.page.run("!document.querySelector('#tab-view').hidden && document.querySelectorAll('.mark.find').length === 1"));
   await desk.click("#report-run_1");
   await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
+  await desk.click("#print-run_1");
+  await desk.until("!!document.querySelector('#printed-run_1') && !solidus.state.job", 120);
+  const printed = Buffer.from(await (await fetch(`${server.address}run/run_1/printed`)).arrayBuffer());
+  check("pages for the customer are printed as a PDF", printed.subarray(0, 5).toString() === "%PDF-" && await desk.page.run("document.querySelector('#printed-run_1').textContent") === "report.pdf", printed.length);
   check("titles go in as text", await desk.page.run("document.querySelector('#report-frame').contentDocument.querySelector('h1').textContent") === "A <b>block</b>");
 }
 
@@ -254,6 +258,58 @@ async function ofAPart(server, desk) {
   check("fields have names for screen readers", await desk.page.run("[...document.querySelectorAll('input:not([hidden]), select, textarea, button, iframe')].every((e) => e.ariaLabel || e.title || e.labels?.length || e.textContent.trim())"));
 }
 
+/** A run that takes long is stopped after its step, and keeps what it has. */
+async function ofStopping(server, desk) {
+  await desk.front();
+  const before = file();
+  await desk.page.run("solidus.ask('set', { path: ['time', 'step'], value: '0.5 ms' })");
+  await desk.until("solidus.state.case.document.time.step === '0.5 ms'");
+  await desk.click("#run");
+  await desk.until("solidus.state.job?.progress.step > 3 && !!document.querySelector('#job progress')");
+  check("a run shows its step and how much is done", await desk.page.run("/step [0-9]+/.test(document.querySelector('#job').textContent)"));
+  await desk.click("#stop");
+  await desk.until("!!document.querySelector('#failed')");
+  const { runs, job } = await server.state();
+  check("a run that is stopped keeps its results, and the page says so", job === null && runs.at(-1).outcome !== "finished"
+    && await desk.page.run("document.querySelector('#failed').textContent === 'Stopped.'"), runs.at(-1));
+  await desk.click("#undo");
+  await desk.until("solidus.state.case.document.time.step !== '0.5 ms'");
+  check("what was changed for it is undone", file() === before, file());
+}
+
+/** Files that are dropped on the page: a surface of triangles becomes the part, what is no part is refused. */
+async function ofDropping(server, desk) {
+  const drop = (name, text) => desk.page.run(`(() => {
+    const data = new DataTransfer();
+    data.items.add(new File([${JSON.stringify(text)}], ${JSON.stringify(name)}));
+    document.querySelector('#stage').dispatchEvent(new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: data }));
+  })()`);
+  const corners = [[0, 0, 0], [30, 0, 0], [0, 20, 0], [0, 0, 10]], faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+  await drop("wedge.stl", `solid wedge\n${faces.map((f) => `facet normal 0 0 0\nouter loop\n${f.map((v) => `vertex ${corners[v].join(" ")}`).join("\n")}\nendloop\nendfacet`).join("\n")}\nendsolid wedge\n`);
+  await desk.until("solidus.state.part === 'wedge.stl' && solidus.stage.picture.bodies.length === 1");
+  const box = await desk.page.run("(({ low, high }) => [...low, ...high])(solidus.stage.picture.bodies[0])");
+  check("a surface that is dropped is the part, in millimetres", [0, 0, 0, 0.03, 0.02, 0.01].every((v, i) => Math.abs(box[i] - v) < 1e-7), box);
+  await drop("script.geo", "Point(1) = {0, 0, 0};");
+  await desk.until("document.querySelector('#told.bad') && !document.querySelector('#told').hidden");
+  check("what is no part is refused in words", await desk.page.run("solidus.state.part") === "wedge.stl", await desk.page.run("document.querySelector('#told').textContent"));
+  await desk.click("#told button");
+  await desk.page.run("solidus.ask('open', { name: 'plate.step' })");
+  await desk.until("solidus.state.part === 'plate.step' && solidus.stage.picture.bodies.length === 1 && solidus.stage.picture.bodies[0].high[2] > 0.02");
+}
+
+/** A tablet held upright: the picture stands above the steps, a tap says what lies there, and nothing is wider than the screen. */
+async function onATablet(server, browser) {
+  const desk = await Desk.open(browser, server.address, { mobile: true });
+  await desk.page.send("Emulation.setDeviceMetricsOverride", { width: 820, height: 1180, deviceScaleFactor: 1, mobile: true });
+  await desk.page.send("Emulation.setTouchEmulationEnabled", { enabled: true });
+  await desk.until("solidus.stage.picture.bodies.length > 0 && solidus.stage.picture.canvas.clientWidth > 500");
+  await desk.page.run("solidus.stage.picture.look([0, 0, 1])");
+  const [x, y] = await desk.atRest("(() => { const b = solidus.stage.picture.canvas.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; })()");
+  for (const type of ["touchStart", "touchEnd"]) await desk.page.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchStart" ? [{ x, y }] : [] });
+  await desk.until("!document.querySelector('.place-card').hidden && !!document.querySelector('#place-probe')");
+  check("on a tablet a tap says what lies there, and the page fits its screen", await desk.page.run("document.documentElement.scrollWidth <= 820 && document.querySelector('.desk').getBoundingClientRect().top < document.querySelector('#steps').getBoundingClientRect().top"));
+}
+
 /** A browser without WebGL: no picture, and all else. */
 async function withoutPictures(server, browser) {
   const desk = await Desk.open(browser, server.address, { noPictures: true });
@@ -276,7 +332,10 @@ try {
   await ofConditions(server, desk);
   await ofMistakes(server, desk);
   await ofPages(server, browser, desk);
+  await ofStopping(server, desk);
   await ofAPart(server, desk);
+  await ofDropping(server, desk);
+  await onATablet(server, browser);
   await withoutPictures(server, browser);
   await checkInFirefox(check, server);
 } catch (error) {

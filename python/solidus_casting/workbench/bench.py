@@ -11,9 +11,10 @@ from typing import Any
 
 from .. import verbs
 from ..errors import InputError, SolidusError
-from . import choices as chosen, findings, runs, skin as skins, toml_edit
+from . import choices as chosen, findings, pictures, runs, skin as skins, toml_edit
 from .case_folder import CaseFolder, digest
 from .children import Child
+from .edit import Edit
 from .job import Conflict, Job
 from .work_folder import WorkFolder
 
@@ -119,6 +120,10 @@ class Bench:
     def report(self, run: str) -> Path:
         return runs.folder_of(self._results, run) / "report.html"
 
+    def printed(self, run: str) -> Path:
+        """The PDF of a run, or the page that a browser prints."""
+        return runs.folder_of(self._results, run) / (runs.printed(runs.folder_of(self._results, run)) or "report.pdf")
+
     def comparison(self) -> Path:
         return self._open_case().own("compared") / "report.html"
 
@@ -182,8 +187,8 @@ class Bench:
             if case.text is None:
                 self._skins.pop("case", None)  # there are no bodies without a case
 
-    def _edit(self, seen: int) -> "_Edit":
-        return _Edit(self, seen)
+    def _edit(self, seen: int) -> Edit:
+        return Edit(self, seen)
 
     def begin_edit(self, seen: int) -> CaseFolder:
         """Takes the lock, and looks that nothing has changed since the page has seen it. Raises :class:`Conflict`."""
@@ -238,6 +243,14 @@ class Bench:
         if folders[0] == folders[1]:
             raise InputError("these are the same run", "two runs")
         self._begin("compare", f"compares {first} and {second}", lambda job: self._compare(job, folders))
+
+    def print(self, name: Any) -> None:
+        """The pages of a run for the customer: a PDF, or what a browser prints where no Chromium is there."""
+        words = ["report", str(runs.folder_of(self._results, name)), "--pdf"]
+        self._begin("print", f"prints {name}", lambda job: self._print(job, words))
+
+    def _print(self, job: Job, words: list[str]) -> None:
+        self._call(job, words, f"prints {Path(words[1]).name}")
 
     def stop(self) -> None:
         """Stops the job: the first time as Ctrl-C does, the second time at once."""
@@ -321,30 +334,13 @@ class Bench:
             self._read_case(job, case)
 
     def _read_part(self, job: Job, case: CaseFolder) -> None:
-        assert case.part is not None
-        if case.part.suffix.lower() == ".stl":
-            self._keep("part", skins.of_stl(case.part, case.choices["unit"] or "mm"))
-            return
-        file = Path(f"{self.place.folder}/.{case.part.name}.faces")
-        # A mesh has no unit of its own; it is read as `solidus new` reads it.
-        is_mesh = case.part.suffix.lower() not in (".step", ".stp", ".iges", ".igs", ".brep")
-        unit = case.choices["unit"] or ("mm" if is_mesh or case.part.suffix.lower() == ".brep" else "")
-        try:
-            child = self._call(job, ["mesh-info", f"--faces={file}", *([f"--unit={unit}"] if unit else []), str(case.part)], "reads the part")
-            self._keep("part", skins.of_faces(file, "\n".join(child.output)))
-        finally:
-            file.unlink(missing_ok=True)
+        self._keep("part", pictures.of_part(lambda words, label: self._call(job, words, label), case, self.place.folder))
 
     def _read_case(self, job: Job, case: CaseFolder) -> None:
         document = (self._case_state(case) or {}).get("document") or {}
-        if document.get("analysis", {}).get("kind") != "solid":
-            return  # a section has no skin
-        file = case.own("faces.vtk")
-        try:
-            child = self._call(job, ["mesh-info", f"--faces={file}", str(case.folder)], "reads the bodies")
-            self._keep("case", skins.of_faces(file, "\n".join(child.output)))
-        finally:
-            file.unlink(missing_ok=True)
+        skin = pictures.of_case(lambda words, label: self._call(job, words, label), case, document)
+        if skin is not None:
+            self._keep("case", skin)
 
     def _keep(self, name: str, skin: skins.Skin) -> None:
         with self._changed:
@@ -354,8 +350,7 @@ class Bench:
     def _make(self, job: Job, words: list[str]) -> None:
         """Makes the case aside and puts it into its folder when all has gone well."""
         case = self._open_case()
-        made = case.own("made")
-        shutil.rmtree(made, ignore_errors=True)
+        shutil.rmtree(made := case.own("made"), ignore_errors=True)
         case.own("feeders.toml").write_text(chosen.feeders_text(case.choices), encoding="utf-8")
         child = self._call(job, ["new", *words], "makes the case")
         text = (made / "case.toml").read_text(encoding="utf-8")
@@ -435,16 +430,3 @@ class Bench:
     def _tell(self) -> None:
         self._revision += 1
         self._changed.notify_all()
-
-
-class _Edit:
-    """A change of what is open, in a ``with``: it is refused where the page does not know what it changes."""
-
-    def __init__(self, bench: Bench, seen: int) -> None:
-        self._bench, self._seen = bench, seen
-
-    def __enter__(self) -> CaseFolder:
-        return self._bench.begin_edit(self._seen)
-
-    def __exit__(self, *_: object) -> None:
-        self._bench.end_edit()

@@ -14,6 +14,7 @@ from . import findings
 
 NAME = re.compile(r"run_[0-9]{1,6}")
 _MOST_ROWS = 400  # of a curve
+_PRINTED = ("report.pdf", "report.print.html")  # for the customer; the second where no Chromium is there
 _LAST_BYTES = 65536  # of a table of which the last row is wanted
 
 
@@ -32,7 +33,7 @@ def all_runs(folder: Path) -> list[dict[str, Any]]:
 def one_run(folder: Path) -> dict[str, Any]:
     """Outcome, answers with their errors and warnings of a run; of one that has not ended its name alone."""
     stamps = []
-    for name in ("summary.json", "report.html"):
+    for name in ("summary.json", "report.html", *_PRINTED):
         try:
             stamps.append((folder / name).stat().st_mtime_ns)
         except OSError:
@@ -40,12 +41,18 @@ def one_run(folder: Path) -> dict[str, Any]:
     return _read(folder, tuple(stamps))
 
 
+def printed(folder: Path) -> str | None:
+    """The file with the pages for the customer, where they have been printed: the newest."""
+    there = [folder / name for name in _PRINTED if (folder / name).is_file()]
+    return max(there, key=lambda path: path.stat().st_mtime).name if there else None
+
+
 @functools.lru_cache(maxsize=500)
 def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
     """As :func:`one_run`, read again only when the files have changed, which `stamps` tell."""
     del stamps
     run: dict[str, Any] = {"name": folder.name, "outcome": "not ended", "answers": [], "warnings": [],
-                           "report": (folder / "report.html").exists()}
+                           "report": (folder / "report.html").exists(), "printed": printed(folder)}
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         from solidus_plots.answers import answers, bands, places
@@ -61,7 +68,7 @@ def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
         pass
     except (ValueError, TypeError, AttributeError, KeyError) as error:
         return {"name": folder.name, "outcome": "damaged", "answers": [], "warnings": [findings.finding("error", f"its summary.json cannot be read: {error!r}", "", {})],
-                "report": run["report"]}
+                "report": run["report"], "printed": run["printed"]}
     return run
 
 

@@ -145,6 +145,9 @@ class _Request(BaseHTTPRequestHandler):
             self._send(200, b"")
         elif first == "run" and last == "report":
             self._send(200, bench.report(name).read_bytes(), _HTML)
+        elif first == "run" and last == "printed":
+            pages = bench.printed(name)
+            self._send(200, pages.read_bytes(), "application/pdf" if pages.suffix == ".pdf" else _HTML)
         elif way == "compared/report":
             self._send(200, bench.comparison().read_bytes(), _HTML)
         else:
@@ -195,6 +198,7 @@ class _Request(BaseHTTPRequestHandler):
             "check": bench.check,
             "run": lambda: bench.run(given.get("physics"), given.get("sure")),
             "compare": lambda: bench.compare(given.get("first"), given.get("second")),
+            "print": lambda: bench.print(given.get("run")),
             "stop": bench.stop,
         }
         if way not in actions:

@@ -42,14 +42,14 @@ export class Judge {
     if (!names.includes(this.first) || this.first === this.second) this.first = names.filter((n) => n !== this.second).pop() ?? names[0];
     const options = names.map((n): [string, string] => [n, n.replace("_", " ")]);
     return [
-      ...[...state.runs].reverse().map((r) => this.one(r, state.job?.run === r.name)),
+      ...[...state.runs].reverse().map((r) => this.one(r, state.job?.run === r.name, busy)),
       names.length > 1 ? h("div", { class: "compare" },
         field("Compare", select("first", options, this.first, (v) => (this.first = v), busy)), field("with", select("second", options, this.second, (v) => (this.second = v), busy)),
         h("button", { id: "compare", disabled: busy, click: () => void this.desk.ask("compare", { first: this.first, second: this.second }) }, "Compare")) : null,
     ];
   }
 
-  private one(run: RunState, goesOn: boolean): HTMLElement {
+  private one(run: RunState, goesOn: boolean, busy: boolean): HTMLElement {
     const good = run.outcome === "finished";
     // An answer that was found at a place leads to it.
     const show = (a: Answer) => this.desk.show({ severity: "note", message: a.name, places: [a.at!], bodies: [] });
@@ -58,6 +58,8 @@ export class Judge {
     return h("article", { class: "run", id: run.name },
       h("header", {}, h("b", {}, run.name.replace("_", " ")), h("span", { class: `badge ${goesOn ? "" : good ? "good" : "bad"}` }, goesOn ? "running" : run.outcome.split(/[:;,]/)[0]),
         run.report ? h("button", { id: `report-${run.name}`, click: () => this.openReport(run.name) }, "Report") : null,
+        good ? h("button", { id: `print-${run.name}`, disabled: busy, title: "Four pages for the customer; logo and words are those of customer.toml next to the case", click: () => void this.desk.ask("print", { run: run.name }) }, run.printed ? "Print again" : "PDF") : null,
+        run.printed ? h("a", { id: `printed-${run.name}`, href: `run/${run.name}/printed`, target: "_blank", rel: "noopener" }, run.printed) : null,
         h("button", { class: "quiet", id: `curves-${run.name}`, click: () => void this.curves(run.name) }, "Curves")),
       run.answers.length ? h("table", { class: "plain answers" }, ...run.answers.map(line)) : null,
       run.warnings.length ? h("details", {}, h("summary", {}, `${run.warnings.length} to look at`), h("ul", { class: "findings" }, ...run.warnings.map((w, n) => this.finding(w, `${run.name}-look-${n}`)))) : null);

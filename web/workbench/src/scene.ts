@@ -1,6 +1,6 @@
 /** The picture: bodies by their roles, what is placed on them, a face that is pointed to, and marks of findings. */
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, GLSL3, Group, LineSegments, Mesh, Scene, ShaderMaterial, SphereGeometry,
+  Box3, BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, GLSL3, Group, LineSegments, Mesh, Scene, ShaderMaterial, SphereGeometry,
   Vector3, WebGLRenderer, type Material,
 } from "three";
 import { Camera } from "../../report/src/camera";
@@ -171,6 +171,12 @@ export class Picture {
       const mesh = new Mesh(new CylinderGeometry(r.diameter / 2, r.diameter / 2, r.height, 48), look(ROLE_COLOURS.riser));
       mesh.rotateX(Math.PI / 2);
       add(mesh, [r.foot[0], r.foot[1], r.foot[2] + r.height / 2]);
+      if (r.sleeve) {
+        const from = r.foot[2] + (r.neck_height ?? 0), high = r.foot[2] + r.height - from;
+        const sleeve = new Mesh(new CylinderGeometry(r.diameter / 2 + r.sleeve, r.diameter / 2 + r.sleeve, high, 48), paint(ROLE_COLOURS.sleeve, 0.35));
+        sleeve.rotateX(Math.PI / 2);
+        add(sleeve, [r.foot[0], r.foot[1], from + high / 2]);
+      }
       if (r.neck_to) this.neck(r, r.neck_to, look(ROLE_COLOURS.riser));
     }
     for (const c of choices?.riser === "placed" ? choices.chills : []) {
@@ -185,6 +191,7 @@ export class Picture {
       add(new Mesh(new BoxGeometry(d[0], d[1], d[2]), paint("#2f8fd0", 0.3)), [0, 1, 2].map((i) => (low[i] + high[i]) / 2) as Place);
     }
     if (choices?.gate) add(new Mesh(new SphereGeometry(size / 60, 20, 14), look("#7b3fb5")), choices.gate);
+    if (this.bodies.length && this.reachesOut()) this.fit();
     this.request();
   }
 
@@ -231,8 +238,29 @@ export class Picture {
     return Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
   }
 
+  /** The box with what was placed and is not yet in the mesh: a riser reaches above the part. */
+  private boxOfAll(): { low: Place; high: Place } {
+    const { low, high } = this.box(), placed = new Box3();
+    this.placed.updateMatrixWorld(true);
+    placed.setFromObject(this.placed);
+    if (!placed.isEmpty()) {
+      placed.min.toArray().forEach((v, i) => (low[i] = Math.min(low[i], v)));
+      placed.max.toArray().forEach((v, i) => (high[i] = Math.max(high[i], v)));
+    }
+    return { low, high };
+  }
+
+  /** Whether something lies beyond the frame. */
+  private reachesOut(): boolean {
+    const { low, high } = this.boxOfAll(), w = this.canvas.clientWidth, t = this.canvas.clientHeight, x = [low, high];
+    return [0, 1, 2, 3, 4, 5, 6, 7].some((k) => {
+      const [px, py] = this.project([x[k & 1][0], x[(k >> 1) & 1][1], x[k >> 2][2]]);
+      return px < 0 || py < 0 || px > w || py > t;
+    });
+  }
+
   fit(): void {
-    const { low, high } = this.box(), c = this.camera;
+    const { low, high } = this.boxOfAll(), c = this.camera;
     const size = new Vector3(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
     c.target.set((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2);
     c.reach = size.length() / 2 || 1;
