@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "criteria/freezing_history.hpp"
+#include "criteria/longest_sides.hpp"
 #include "criteria/quantities.hpp"
 #include "material/elasticity.hpp"
 #include "numbers/index_casts.hpp"
@@ -40,29 +41,17 @@ std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEntha
 
 /// α L/ΔT_f of each body that expands and freezes over a range, zero of the others [m/K²]. A body of the
 /// length L that cools with Ṫ while its ends are held strains a mush of the thickness ΔT_f/G with the rate α
-/// Ṫ L G/ΔT_f, if all of its contraction goes there. Collective.
-std::vector<double> held_mush(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
-  const std::size_t n_bodies = mesh.bodies.size();
-  std::vector<mesh::Point> low(n_bodies), high(n_bodies);
-  for (std::size_t b = 0; b < n_bodies; ++b) low[b].fill(HUGE_VAL), high[b].fill(-HUGE_VAL);
-  for (const mesh::ElementBlock& block : mesh.blocks)
-    for (const Index node : block.nodes)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double x = mesh.x[as_size(node)][i];
-        const auto body = as_size(block.body);
-        low[body][i] = std::min(low[body][i], x), high[body][i] = std::max(high[body][i], x);
-      }
-  std::vector<double> held(n_bodies, 0.0);
-  for (std::size_t b = 0; b < n_bodies; ++b) {
-    double length = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      length = std::max(length, parallel::global_max(high[b][i]) + parallel::global_max(-low[b][i]));
+/// Ṫ L G/ΔT_f, if all of its contraction goes there.
+/// @param longest  L of each body [m]
+std::vector<double> held_mush(const heat::NodalEnthalpy& storage, std::span<const double> longest) {
+  std::vector<double> held(longest.size(), 0.0);
+  for (std::size_t b = 0; b < longest.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     const FreezingLevels levels = FreezingLevels::of(material);
     if (!material.mechanical() || !levels.freezes || levels.liquidus <= levels.solidus) continue;
     constexpr double k_directions = 3;  // of a volume
     const double expansion = material::expansion_slope<double>(material, levels.solidus) / k_directions;
-    held[b] = expansion * length / (levels.liquidus - levels.solidus);
+    held[b] = expansion * longest[b] / (levels.liquidus - levels.solidus);
   }
   return held;
 }
@@ -98,15 +87,16 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
                    FreezingOptions options)
     : mesh_(mesh),
       storage_(storage),
-      held_(held_mush(mesh, storage)),
       patches_(mesh, kind, freezing_bodies(mesh, storage, options.bodies)),
       ghosts_(mesh) {
+  const std::vector<double> longest = longest_sides(mesh);
+  held_ = held_mush(storage, longest);
   // The levels of temperature of each material: between solidus and liquidus lies the one at which the
   // gradient is evaluated; a material that evaluates at its solidus does so at the end of freezing.
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     feeding_.push_back(FeedingLaw::of(material));
-    tearing_.push_back(TearingLaw::of(material));
+    tearing_.push_back(TearingLaw::of(material, longest[b]));
     kou_.push_back(material.solidification() != nullptr
                        ? kou_index(material.solidification()->fraction.points())
                        : k_never);
@@ -183,6 +173,7 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
   if (before == 1) return;
   for (const auto& [slot, fraction] : k_fractions)
     if (before < fraction && after >= fraction) h[slot] = step.time((fraction - before) / (after - before));
+  if (before < k_healed_from && after >= k_vulnerable_from) h[k_vulnerable_at] = k_never;
   if (before == 0 && after > 0)
     h[k_liquidus_at] = step.time(levels.begin(storage_, who.node, step.old, step.next));
   // The place of evaluation is the temperature T_e, or the end of freezing where the material has it there.

@@ -1,5 +1,8 @@
 /// Findings of the criteria of freezing at the end of a run.
 #include "criteria/freezing.hpp"
+
+#include <algorithm>
+
 #include "criteria/freezing_history.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/quantities.hpp"
@@ -30,6 +33,21 @@ std::vector<CriterionResult> Freezing::shares_beyond(const CriterionRecord& reco
     bad = parallel::global_sum(bad);
     if (all > 0) shares.push_back({beyond(field), "1", bad / all, false, {}});
   }
+  // Where shrinkage alone opens pores no strain rate is left that melt could feed.
+  constexpr auto critical_at =
+      static_cast<std::size_t>(std::ranges::find(fields::k_of_freezing, &fields::k_critical_strain_rate) -
+                               fields::k_of_freezing.begin());
+  double all = 0, none = 0;
+  for (const FreezingNode& who : nodes_) {
+    const double critical = values_of(who, record.columns[0].values, speeds[as_size(who.node)])[critical_at];
+    if (critical < 0) continue;
+    const double volume = storage_.volume(who.node, who.body);
+    all += volume;
+    if (critical == 0) none += volume;
+  }
+  all = parallel::global_sum(all);
+  none = parallel::global_sum(none);
+  if (all > 0) shares.push_back({fed_nowhere(), "1", none / all, false, {}});
   return shares;
 }
 

@@ -10,7 +10,8 @@ using namespace freezing_history;
 
 namespace {
 
-/// The ratio of Clyne and Davies of a node; k_never where it started colder or froze at once.
+/// The ratio of Clyne and Davies of a node; k_never where it started colder or passed both fractions in one
+/// step, of which the step and not the metal decides the time between them.
 double vulnerable_share(const double* h) {
   if (h[k_healed_at] < 0 || h[k_vulnerable_at] <= h[k_healed_at] || h[k_safe_at] < 0) return k_never;
   return (h[k_safe_at] - h[k_vulnerable_at]) / (h[k_vulnerable_at] - h[k_healed_at]);
@@ -51,7 +52,7 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   if (tearing && magnitude > 0 && rate > 0 && spacing > 0) {
     const TearingLaw::Place place{magnitude, rate, spacing};
     critical = tearing->critical_strain_rate(place);
-    if (held_[body] > 0) tendency = tearing->tendency(place, held_[body] * magnitude * rate);
+    if (held_[body] > 0) tendency = tearing->tendency(place, held_[body] * tearing->gradient(place) * rate);
   }
   return {h[k_solidified_at],
           time,

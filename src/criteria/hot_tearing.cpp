@@ -32,7 +32,8 @@ Curve mush_of(const Curve& curve) {
 
 }  // namespace
 
-TearingLaw::TearingLaw(const Curve& curve, double shrinkage, double viscosity, double pressure_drop)
+TearingLaw::TearingLaw(const Curve& curve, double shrinkage, double viscosity, double pressure_drop,
+                       double longest)
     : shrinkage_(shrinkage), viscosity_(viscosity), pressure_drop_(pressure_drop) {
   // Gauss's rule of five points in each straight piece, over which the integrands are smooth.
   constexpr std::array<std::pair<double, double>, 5> k_gauss = {{{-0.9061798459386640, 0.2369268850561891},
@@ -41,6 +42,7 @@ TearingLaw::TearingLaw(const Curve& curve, double shrinkage, double viscosity, d
                                                                  {0.5384693101056831, 0.4786286704993665},
                                                                  {0.9061798459386640, 0.2369268850561891}}};
   const Curve mush = mush_of(curve);
+  if (!mush.empty()) least_gradient_ = (mush.back().first - mush.front().first) / longest;
   double taken = 0;  // F at the low end of the piece
   // A and B of the criterion of Rappaz, Drezet and Gremaud, summed piece by piece over the mush.
   for (std::size_t i = 1; i < mush.size(); ++i) {
@@ -55,7 +57,7 @@ TearingLaw::TearingLaw(const Curve& curve, double shrinkage, double viscosity, d
   }
 }
 
-std::optional<TearingLaw> TearingLaw::of(const material::Material& material) {
+std::optional<TearingLaw> TearingLaw::of(const material::Material& material, double longest) {
   const material::PhaseChange* freezing = material.solidification();
   if (freezing == nullptr || !material.casting.melt_viscosity) return {};
   double volume_change = 0;  // until the last melt is frozen: graphite forms on the way
@@ -63,27 +65,27 @@ std::optional<TearingLaw> TearingLaw::of(const material::Material& material) {
     if (change.fraction.liquidus() > freezing->fraction.solidus()) volume_change += change.volume_change;
   if (volume_change >= 0) return {};
   TearingLaw law(freezing->fraction.points(), -volume_change / (1 + volume_change),
-                 *material.casting.melt_viscosity, material.casting.critical_pressure_drop);
+                 *material.casting.melt_viscosity, material.casting.critical_pressure_drop, longest);
   if (!(law.b() > 0)) return {};
   return law;
 }
 
 double TearingLaw::resistance(const Place& place) const {
-  return material::k_blake_kozeny * viscosity_ / (place.arm_spacing * place.arm_spacing * place.gradient);
+  return material::k_blake_kozeny * viscosity_ / (place.arm_spacing * place.arm_spacing * gradient(place));
 }
 
 double TearingLaw::drop_of_shrinkage(const Place& place) const {
-  return resistance(place) * (place.cooling_rate / place.gradient) * shrinkage_ * a_;
+  return resistance(place) * (place.cooling_rate / gradient(place)) * shrinkage_ * a_;
 }
 
 double TearingLaw::drop(const Place& place, double strain_rate) const {
-  return drop_of_shrinkage(place) + resistance(place) * (1 + shrinkage_) * strain_rate * b_ / place.gradient;
+  return drop_of_shrinkage(place) + resistance(place) * (1 + shrinkage_) * strain_rate * b_ / gradient(place);
 }
 
 double TearingLaw::critical_strain_rate(const Place& place) const {
   const double left = pressure_drop_ - drop_of_shrinkage(place);
   if (left <= 0) return 0;
-  return left * place.gradient / (resistance(place) * (1 + shrinkage_) * b_);
+  return left * gradient(place) / (resistance(place) * (1 + shrinkage_) * b_);
 }
 
 double root_of(const Curve& curve) {

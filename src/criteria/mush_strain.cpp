@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "criteria/longest_sides.hpp"
 #include "criteria/quantities.hpp"
 #include "criteria/strain_lanes.hpp"
 #include "numbers/index_casts.hpp"
@@ -75,6 +76,7 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
   // Only blocks whose material freezes over a range are followed. `first` counts all elements, so that rows
   // of the record are the element numbers of the mesh.
   std::size_t first = 0;
+  const std::vector<double> longest = longest_sides(mesh);
   for (const mesh::ElementBlock& block : mesh.blocks) {
     const material::Material& material = materials[as_size(block.body)];
     const material::PhaseChange* freezing = material.solidification();
@@ -84,7 +86,7 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
       blocks_.push_back({.strain = ElementStrain(mesh, block, kind),
                          .block = &block,
                          .material = &material,
-                         .tearing = TearingLaw::of(material),
+                         .tearing = TearingLaw::of(material, longest[as_size(block.body)]),
                          .root = root_of(curve),
                          .brittle_width = temperature_at(curve, low) - temperature_at(curve, high),
                          .first = first,

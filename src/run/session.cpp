@@ -150,6 +150,8 @@ Session::Session(setup::Case given, RunOptions options) : parts_(std::make_uniqu
     if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, nullptr);
     return;
   }
+  // A mistake in what is to be written shows before results that the folder holds are removed.
+  results::check_output(a.mesh, a.phases, r);
   // With a folder: everything that a restart has to agree with is fingerprinted, and the folder is
   // locked against a second run.
   r.summary.overview = check::overview(c.spec, a, measures);

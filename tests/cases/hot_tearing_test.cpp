@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "case_folder.hpp"
 
@@ -34,6 +35,22 @@ std::string bar(const std::string& alloy, int across) {
 
 double probe_at_end(const CaseRun& run, const std::string& name) {
   return run.history.at(name).back();
+}
+
+// At the centre of the bar, where the gradient is zero, the estimate has a limit: it does not grow as
+// elements get smaller.
+TEST(HotTearing, HasALimitAtAThermalCentre) {
+  std::vector<double> largest;
+  for (const int across : {6, 10, 20}) {
+    const std::string text = bar("aluminium_alcu4mgti", across) +
+                             "[[probe]]\nname = \"maximum\"\nfield = \"tearing_tendency\"\nkind = "
+                             "\"maximum\"\ngroup = \"block\"\nunit = \"1\"\n";
+    const CaseRun run = k_here.run("centre" + std::to_string(across), text, {});
+    ASSERT_TRUE(run.finished) << run.reason;
+    largest.push_back(probe_at_end(run, "maximum[1]"));
+  }
+  EXPECT_NEAR(largest[0], largest[2], 0.1 * largest[2]);
+  EXPECT_NEAR(largest[1], largest[2], 0.1 * largest[2]);
 }
 
 TEST(HotTearing, RanksAlloysAsFoundriesDo) {

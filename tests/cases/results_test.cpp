@@ -416,6 +416,20 @@ internal_variable = "%"
   EXPECT_THROW(with("normal_work", "mm"), solidus::InputError);
 }
 
+// A mistake in a case must not cost what an earlier run of it has left.
+TEST(Results, StayWhereTheNextRunIsRefused) {
+  k_here.write("metal.toml", k_metal);
+  ASSERT_TRUE(k_here.run("kept", k_wall).finished);
+  const auto table = k_here.root() / "kept" / "history.csv";
+  const std::string before = solidus::testing::read_text(table);
+  ASSERT_FALSE(before.empty());
+  const std::string probe =
+      "[[probe]]\nname = \"T\"\nfield = \"temperature\"\nunit = \"degC\"\npoint = [\"500 mm\", \"1 mm\"]\n";
+  EXPECT_THAT(k_here.refusal("kept", k_wall + probe), HasSubstr("lies outside the mesh"));
+  EXPECT_EQ(solidus::testing::read_text(table), before);
+  EXPECT_TRUE(std::filesystem::exists(k_here.root() / "kept" / "summary.json"));
+}
+
 TEST(Profiles, DoNotTakeTheNamesOfOtherTables) {
   k_here.write("metal.toml", k_metal);
   for (const char* name : {"pools", "history", "steps"}) {

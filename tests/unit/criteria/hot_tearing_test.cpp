@@ -49,6 +49,34 @@ TEST(HotTearing, ShrinkageAloneTearsWhereItTakesAllOfThePressure) {
   EXPECT_GT(law.tendency(fine, 0), 1);
 }
 
+// 1/G² has no limit where fronts meet. With a mush as long as the casting, here 0.1 m, Δp is
+// 180 μ/(λ₂² G) [v β A + (1 + β) ε̇ B/G] with G = 96.9 K/0.1 m.
+TEST(HotTearing, TheMushIsNoLongerThanTheCastingWhereTheGradientVanishes) {
+  constexpr double k_longest = 0.1, k_spacing = 300e-6, k_rate = 0.1, k_strain_rate = 1e-5;
+  const TearingLaw law(scheil(4000), k_shrinkage, k_viscosity, k_drop, k_longest);
+  constexpr double k_least = (k_liquidus - k_eutectic) / k_longest;
+  const double resistance = 180 * k_viscosity / (k_spacing * k_spacing * k_least);
+  const double shrinkage = resistance * k_rate / k_least * k_shrinkage * 2986.46,
+               strain = resistance * (1 + k_shrinkage) * k_strain_rate * 415039.7 / k_least;
+  for (const double gradient : {1e-9, 1.0, 0.999 * k_least}) {
+    const TearingLaw::Place place{gradient, k_rate, k_spacing};
+    EXPECT_NEAR(law.drop_of_shrinkage(place), shrinkage, 1e-4 * shrinkage) << gradient;
+    EXPECT_NEAR(law.drop(place, k_strain_rate), shrinkage + strain, 1e-4 * strain) << gradient;
+    EXPECT_NEAR(law.tendency(place, law.critical_strain_rate(place)), 1, 1e-12) << gradient;
+  }
+  // A steeper gradient is taken as it is.
+  const TearingLaw::Place steep{1e4, 10, k_spacing};
+  const TearingLaw endless(scheil(4000), k_shrinkage, k_viscosity, k_drop);
+  EXPECT_EQ(law.drop(steep, k_strain_rate), endless.drop(steep, k_strain_rate));
+}
+
+// From the critical drop on a pore opens: the law does not say how far beyond it the pressure would fall.
+TEST(HotTearing, IsToldUpToTenTimesTheThreshold) {
+  const TearingLaw law(scheil(400), k_shrinkage, k_viscosity, k_drop);
+  EXPECT_GT(law.drop({1, 10, 20e-6}, 0), 1000 * k_drop);
+  EXPECT_EQ(law.tendency({1, 10, 20e-6}, 0), 10);
+}
+
 TEST(HotTearing, TheRootIsWhereGrainsBridge) {
   // f from 1 to 0 over 100 K: above the root at f = 0.98 A is 100 ∫ f²/(1 − f)² df = 100 (f + 2 ln(1 − f) +
   // 1/(1 − f) − 1).

@@ -64,10 +64,26 @@ TEST(ComparedAnswers, AreToldWithTheirError) {
 }
 
 TEST(Answers, OfACriterionWithAThresholdTellTheShareThatIsBeyond) {
-  const std::string told = text(off_by(0), {{"tearing_tendency_max", "1", 276.6, true, {}},
+  const std::string told = text(off_by(0), {{"tearing_tendency_max", "1", 2.766, true, {}},
                                             {"tearing_tendency_beyond", "1", 0.25, false, {}}});
   EXPECT_THAT(told, HasSubstr("tearing tendency, ends held         above 1 in 25 % of what was cast; largest "
-                              "276.6 at (0, 0, 0) m"));
+                              "2.766 at (0, 0, 0) m"));
+}
+
+TEST(Answers, OfATendencyThatIsCutSayOnlyThatItIsMore) {
+  const std::string told = text(off_by(0), {{"tearing_tendency_max", "1", 10, true, {}},
+                                            {"tearing_tendency_beyond", "1", 1, false, {}},
+                                            {"critical_strain_rate_zero", "1", 0.985, false, {}}});
+  EXPECT_THAT(told, HasSubstr("above 1 in 100 % of what was cast (by shrinkage alone in 98.5 %); largest "
+                              "10 or more at (0, 0, 0) m"));
+}
+
+// Where fronts meet the gradient, and with it Niyama's number, vanishes but for rounding.
+TEST(Answers, FarBelowTheirErrorAreToldAsZero) {
+  Answers a = off_by(0);
+  a.castings[0].froze->value = 1e-9;
+  a.castings[0].froze->error = ErrorBand{.step = 0.5, .mesh = 1.25};
+  EXPECT_THAT(text(a, {}), HasSubstr("froze 0 ± 1.8 s (step 0.5, mesh 1.2) after pouring"));
 }
 
 // A runner is poured as the part is, and no one asks whether it is sound.
