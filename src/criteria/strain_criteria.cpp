@@ -3,6 +3,7 @@
 #include "criteria/strain_criteria.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "criteria/quantities.hpp"
@@ -15,7 +16,7 @@ namespace solidus::criteria {
 
 namespace {
 
-enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement, k_coherent_for };
+enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement, k_coherent_for, k_moved };
 Lane equivalent(const Sym<Lane>& strain) {
   return sqrt(Lane(2.0 / 3.0) * dot(dev(strain), dev(strain)));
 }
@@ -81,7 +82,8 @@ CriterionRecord StrainCriteria::initial(const CriterionInput& /*start*/) const {
       {make_column(mesh_, "at_coherency", mesh::FieldPlace::cell, k_tensor),
        make_column(mesh_, "brittle", mesh::FieldPlace::cell, k_tensor),
        make_column(mesh_, "displacement_at_coherency", mesh::FieldPlace::node, static_cast<int>(components_)),
-       make_column(mesh_, "coherent_for", mesh::FieldPlace::node)},
+       make_column(mesh_, "coherent_for", mesh::FieldPlace::node),
+       make_column(mesh_, "moved_until_coherent", mesh::FieldPlace::node)},
       {}};
 }
 
@@ -143,23 +145,30 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
 
 /// Metal that becomes coherent within a step goes with the melt until its end: melt that feeds or is pressed
 /// out moves far in a step, and stops. What it does after that moment is the motion of the next step, of
-/// metal, which is carried back to it.
+/// metal, which is carried back to it. It is not carried further than the node went in the step of that
+/// moment: metal that lay on its wall until the end of a long step, and is released in a short one that
+/// follows, has not moved since it is coherent.
 /// @param soft  the share of the step in which a node has an element that is melt, [local node]
 void StrainCriteria::follow_displacement(const CriterionInput& old, const CriterionInput& next,
                                          const std::vector<double>& soft, CriterionRecord& record) const {
   std::vector<double>&displacement = record.columns[k_displacement].values,
-  &coherent_for = record.columns[k_coherent_for].values;
+  &coherent_for = record.columns[k_coherent_for].values, &moved = record.columns[k_moved].values;
   const std::vector<double>&old_u = old.mechanics.displacement, &u = next.mechanics.displacement;
   const double dt = next.time - old.time;
   for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
     if (soft[node] == 0 && coherent_for[node] == 0) continue;
-    const double back = coherent_for[node] / dt;
+    double way = 0;
+    for (std::size_t i = node * components_; i < (node + 1) * components_; ++i)
+      way = std::hypot(way, u[i] - old_u[i]);
+    const double rate = coherent_for[node] / dt, back = way * rate > moved[node] ? moved[node] / way : rate;
     for (std::size_t i = node * components_; i < (node + 1) * components_; ++i)
       displacement[i] = soft[node] > 0 ? u[i] : displacement[i] - back * (u[i] - old_u[i]);
     coherent_for[node] = soft[node] > 0 ? (1 - soft[node]) * dt : 0.0;
+    moved[node] = soft[node] > 0 ? way : 0.0;
   }
   ghosts_.update(displacement, static_cast<int>(components_));
   ghosts_.update(coherent_for, 1);
+  ghosts_.update(moved, 1);
 }
 
 std::span<const quantities::Quantity* const> StrainCriteria::fields() const {

@@ -256,6 +256,13 @@ double shell_start(const Draft& draft, const CastingProcess& process) {
   return k_step * std::round(process.preheat * draft.liquidus / k_step);
 }
 
+/// A die or mould is warm by its process, but a die for tin takes up heat too: it is well below the liquidus.
+double mould_start(const Draft& draft, const CastingProcess& process) {
+  constexpr double k_below = 120, k_step = 10, k_cold = 20;
+  const double highest = k_step * std::floor((draft.liquidus - k_below) / k_step);
+  return std::max(std::min(process.mould_start, highest), k_cold);
+}
+
 }  // namespace
 
 void describe(const Draft& draft, const CastingProcess& process, DraftBody& body) {
@@ -291,7 +298,7 @@ void describe(const Draft& draft, const CastingProcess& process, DraftBody& body
     case cases::Role::mould:
     case cases::Role::die:
       body.material = first_known(process.materials);
-      body.start = process.shell > 0 ? shell_start(draft, process) : process.mould_start;
+      body.start = process.shell > 0 ? shell_start(draft, process) : mould_start(draft, process);
       if (process.shell > 0) body.comment = "poured hot from the furnace: an estimate, by the liquidus";
       body.heat_only = process.mould == cases::Role::die;
       if (body.heat_only) body.comment = "physics = \"all\" gives its stresses too, at the price of time";
