@@ -65,7 +65,7 @@ std::optional<TearingLaw> TearingLaw::of(const material::Material& material, dou
     if (change.fraction.liquidus() > freezing->fraction.solidus()) volume_change += change.volume_change;
   if (volume_change >= 0) return {};
   TearingLaw law(freezing->fraction.points(), -volume_change / (1 + volume_change),
-                 *material.casting.melt_viscosity, material.casting.critical_pressure_drop, longest);
+                 *material.casting.melt_viscosity, k_tearing_drop, longest);
   if (!(law.b() > 0)) return {};
   return law;
 }

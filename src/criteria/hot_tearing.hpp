@@ -46,6 +46,8 @@ namespace solidus::criteria {
 
 /// Solid fractions at which grains bridge, and between which the ratio of Clyne and Davies takes its times.
 inline constexpr double k_bridged = 0.98;
+/// Δp_c, at which a pore opens between grains [Pa]: the authors' value, decision 0113.
+inline constexpr double k_tearing_drop = 2000;
 /// The largest Δp/Δp_c that is told: the law says no more of what is ten times beyond its threshold.
 inline constexpr double k_most_tendency = 10;
 inline constexpr double k_healed_from = 0.4, k_vulnerable_from = 0.9, k_vulnerable_to = 0.99;

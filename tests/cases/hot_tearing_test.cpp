@@ -42,7 +42,7 @@ double probe_at_end(const CaseRun& run, const std::string& name) {
 TEST(HotTearing, HasALimitAtAThermalCentre) {
   std::vector<double> largest;
   for (const int across : {6, 10, 20}) {
-    const std::string text = bar("aluminium_alcu4mgti", across) +
+    const std::string text = bar("aluminium_alsi7mg", across) +
                              "[[probe]]\nname = \"maximum\"\nfield = \"tearing_tendency\"\nkind = "
                              "\"maximum\"\ngroup = \"block\"\nunit = \"1\"\n";
     const CaseRun run = k_here.run("centre" + std::to_string(across), text, {});

@@ -26,7 +26,7 @@ material::Material metal() {
                              .fraction = material::PhaseFraction::linear(k_solidus, k_liquidus),
                              .volume_change = -0.05,
                              .solidification = true});
-  m.casting.arm_spacing = 150e-6;
+  m.casting.arm_spacing = 1e-3;
   m.casting.arm_spacing_exponent = 0;  // elements that a gradient crosses freeze for longer
   m.casting.melt_viscosity = 1e-3;
   m.casting.crack_strain = 0.02821;
