@@ -12,6 +12,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "input/keys.hpp"
 #include "numbers/index_casts.hpp"
@@ -61,7 +62,7 @@ double number(std::string_view text, char separator, const SourceLocation& where
   return value;
 }
 
-/// "z[mm]" -> "z" and "mm".
+/// "z[mm]" -> "z" and "mm"; a "time" as of history.csv is the coordinate t.
 struct Heading {
   std::string name, unit;
 };
@@ -71,8 +72,9 @@ Heading heading(std::string_view cell, const SourceLocation& where) {
   if (bracket == std::string_view::npos || cell.back() != ']')
     throw InputError(where, fmt::format("the column '{}' has no unit", cell),
                      "its unit in brackets: z[mm], t[s], h[W/m2/K]");
-  return {std::string(trimmed(cell.substr(0, bracket))),
-          std::string(cell.substr(bracket + 1, cell.size() - bracket - 2))};
+  std::string name(trimmed(cell.substr(0, bracket)));
+  if (name == "time") name = "t";
+  return {std::move(name), std::string(cell.substr(bracket + 1, cell.size() - bracket - 2))};
 }
 
 /// Columns that are read, and the conversion of their numbers to SI.
@@ -113,7 +115,8 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
     if (std::find(k_coordinates.begin(), k_coordinates.end(), h.name) == k_coordinates.end())
       others.push_back(h.name);
   if (result.names.empty())
-    throw InputError(where, "the table has no coordinate",
+    throw InputError(where,
+                     fmt::format("the table has no coordinate among its columns {}", fmt::join(others, ", ")),
                      fmt::format("columns of {}", fmt::join(k_coordinates, ", ")));
   // With one column of values no name is needed; with more it is.
   if (column.empty() && others.size() != 1)

@@ -47,6 +47,15 @@ TEST_F(PointTableTest, SemicolonsTabsDecimalCommasAndLineEndsOfWindowsAreRead) {
               ThrowsMessage<InputError>(HasSubstr("'1,2,3' is no number")));
 }
 
+// The heading of history.csv.
+TEST_F(PointTableTest, AColumnNamedTimeIsTheTime) {
+  const PointTable h = table("time[min],T_wall[degC]\n0,20\n1,80\n", "T_wall", "K");
+  EXPECT_THAT(h.coordinates(), ElementsAre("t"));
+  EXPECT_DOUBLE_EQ(h.value(std::array{30.0}), 273.15 + 50);
+  EXPECT_THAT([&] { table("time[s],t[s],h[W/m2/K]\n0,0,1\n"); },
+              ThrowsMessage<InputError>(HasSubstr("two columns 't'")));
+}
+
 TEST_F(PointTableTest, AGridOfPlaceAndTimeIsLinearAlongEach) {
   std::string text = "x[m],y[m],t[s],v[1]\n";
   for (const double x : {0.0, 1.0, 3.0})
