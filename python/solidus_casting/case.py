@@ -67,7 +67,7 @@ class Case(Section):
             case._set(file=file, variant=variant, loaded=copy.deepcopy(document))
             return case
         try:
-            document = tomllib.loads(file.read_text(encoding="utf-8"))
+            document = tomllib.loads(file.read_text(encoding="utf-8-sig"))
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             verbs.call("resolve", file)  # says what is wrong as the program does
             raise InputError(str(error), file=file) from error

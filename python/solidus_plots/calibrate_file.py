@@ -244,7 +244,7 @@ def read_calibration(path):
     if not reader.path.exists():
         reader.fail("there is no such file: it says what is unknown (docs/guide/calibrate.md)")
     try:
-        table = tomllib.loads(reader.path.read_text())
+        table = tomllib.loads(reader.path.read_text(encoding="utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         reader.fail(error)
     reader.known(table, KEYS, "at the top")

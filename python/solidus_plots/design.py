@@ -222,7 +222,7 @@ def new_words(options):
     case = part / "case.toml" if part.is_dir() else part
     if case.suffix == ".toml":
         try:
-            document = tomllib.loads(case.read_text())
+            document = tomllib.loads(case.read_text(encoding="utf-8-sig"))
         except (OSError, tomllib.TOMLDecodeError) as error:
             raise ResultError(f"{case}: not a case file ({error})") from None
         mesh, bodies = document.get("mesh", {}), document.get("body", [])

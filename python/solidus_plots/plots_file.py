@@ -93,7 +93,7 @@ def find_spec(results, summary):
 def read_spec(path):
     """What a plots.toml asks for, and its mistakes: a picture with a mistake is left out, the others stay."""
     try:
-        wanted = tomllib.loads(path.read_text())
+        wanted = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         return {}, [Mistake(f"{path}: {error}")]
     spec, mistakes = {}, []

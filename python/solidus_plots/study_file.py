@@ -126,7 +126,7 @@ def read_study(path):
     if not path.exists():
         raise ResultError(f"{path}: there is no such file")
     try:
-        table = tomllib.loads(path.read_text())
+        table = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ResultError(f"{path}: {error}") from error
     _known(path, table, KEYS, "at the top")

@@ -17,7 +17,7 @@
 /// would be longer than the casting, and Δp, which goes with 1/G², has no limit as elements get smaller. Melt
 /// comes from no further than the casting reaches: G is at least (T_L − T_r)/L, L [m] its longest side, T_r
 /// the temperature of the root. From Δp_c on a pore opens and the pressure falls no further, so that Δp/Δp_c
-/// is cut at 10.
+/// is cut at 100.
 ///
 /// *Clyne and Davies.* t_V/t_R, the time between f = 0.9 and 0.99, when melt no longer heals a strain, over
 /// that between 0.4 and 0.9, when it still does; fractions as public implementations take them.
@@ -48,8 +48,8 @@ namespace solidus::criteria {
 inline constexpr double k_bridged = 0.98;
 /// Δp_c, at which a pore opens between grains [Pa]: the authors' value, decision 0113.
 inline constexpr double k_tearing_drop = 2000;
-/// The largest Δp/Δp_c that is told: the law says no more of what is ten times beyond its threshold.
-inline constexpr double k_most_tendency = 10;
+/// The largest Δp/Δp_c that is told: the law says no more of what is a hundred times beyond its threshold.
+inline constexpr double k_most_tendency = 100;
 inline constexpr double k_healed_from = 0.4, k_vulnerable_from = 0.9, k_vulnerable_to = 0.99;
 
 /// The strain rate that the melt of an alloy can feed, from its freezing curve, viscosity and shrinkage.

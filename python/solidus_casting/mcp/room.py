@@ -92,7 +92,7 @@ class Room:
                 continue
             seen.add(file)
             try:
-                document = tomllib.loads(file.read_text(encoding="utf-8"))
+                document = tomllib.loads(file.read_text(encoding="utf-8-sig"))
             except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
                 continue  # the program says what is wrong with it
             for key, text in _keys_and_texts(document):

@@ -74,7 +74,7 @@ class CaseFolder:
         try:
             if self.file.stat().st_size > _MOST_BYTES:
                 raise InputError("this case file is too large for the page", f"{_MOST_BYTES} bytes at most", file=self.file)
-            return self.file.read_text(encoding="utf-8").replace("\r\n", "\n")
+            return self.file.read_text(encoding="utf-8-sig").replace("\r\n", "\n")
         except FileNotFoundError:
             return None
         except UnicodeDecodeError as error:
@@ -148,7 +148,7 @@ class CaseFolder:
         step = self._steps[to]
         self.choices = chosen.checked(json.loads((step / "choices.json").read_text(encoding="utf-8")))
         if (step / "case.toml").exists():
-            self._text = (step / "case.toml").read_text(encoding="utf-8")
+            self._text = (step / "case.toml").read_text(encoding="utf-8-sig")
             write(self.file, self._text)
         elif self.file.exists():
             self.file.unlink()

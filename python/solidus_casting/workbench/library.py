@@ -30,7 +30,7 @@ def _folders() -> Iterator[Path]:
 
 def _solidifies(card: Path) -> bool:
     try:
-        document = tomllib.loads(card.read_text(encoding="utf-8"))
+        document = tomllib.loads(card.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError):
         return True  # the program says what is wrong with it
     if "include" in document:

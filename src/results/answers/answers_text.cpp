@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "coupling/all_fields.hpp"
-#include "criteria/hot_tearing.hpp"
 #include "criteria/quantities.hpp"
 #include "input/units.hpp"
 #include "results/answers/answers.hpp"
+#include "results/answers/tearing_text.hpp"
 
 namespace solidus::results {
 
@@ -23,9 +23,6 @@ constexpr double k_closed = 1e-6;
 constexpr double k_sunk = 3;
 /// Share of the largest distortion beyond which an overlap of two bodies is reported.
 constexpr double k_overlap = 0.05;
-
-/// Share of its error below which a value is no different from zero.
-constexpr double k_nothing = 1e-3;
 
 /// A number with so many digits that count, without a power of ten where a person reads it more easily so:
 /// 140, not 1.4e+02.
@@ -42,8 +39,8 @@ std::string digits(double value, int number) {
 std::string with_error(double value, const std::optional<ErrorBand>& error, double factor,
                        const std::string& unit) {
   const std::string space = unit.empty() ? "" : " ";
-  // What is far below its error is told as zero.
-  if (error && std::abs(value) < k_nothing * error->total()) value = 0;
+  // What is less than a thousandth of its error is told as zero.
+  if (error && 1000 * std::abs(value) < error->total()) value = 0;
   if (!error || !(error->total() > 0)) return digits(value * factor, 4) + space + unit;
   return fmt::format("{} ± {}{}{} (step {}, mesh {})", digits(value * factor, 4),
                      digits(error->total() * factor, 2), space, unit, digits(error->step * factor, 2),
@@ -266,13 +263,6 @@ const ValueAt* least_niyama_of_parts(const Answers& answers) {
   return least;
 }
 
-/// What of the tearing tendency strains have no part in: pores open there, held or not.
-std::string by_shrinkage(const std::vector<criteria::CriterionResult>& found) {
-  const auto alone = std::ranges::find(found, criteria::fed_nowhere(), &criteria::CriterionResult::name);
-  if (alone == found.end() || !(alone->value > 0)) return {};
-  return fmt::format(" (by shrinkage alone in {} %)", digits(100 * alone->value, 3));
-}
-
 std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, const Answers& answers,
                            const Formatter& format) {
   std::string text;
@@ -295,20 +285,16 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
     if (const ValueAt* of_parts = least_niyama_of_parts(answers);
         of_parts && field == &criteria::fields::k_niyama)
       value = *of_parts;
-    // A criterion that is cut says of larger values only that they are.
-    const bool cut =
-        (field == &criteria::fields::k_tearing_tendency || field == &criteria::fields::k_strained_tendency) &&
-        value.value >= criteria::k_most_tendency;
-    std::string answer =
-        cut ? fmt::format("{:g} or more", criteria::k_most_tendency)
-            : with_error(value.value, value.error, field->shown().factor, printed(field->shown()));
+    std::string answer = cut_tendency(*field, value.value);
+    const bool cut = !answer.empty();
+    if (!cut) answer = with_error(value.value, value.error, field->shown().factor, printed(field->shown()));
     // The value, with its error, and where it is, unless it is the same everywhere.
     const auto other =
         std::ranges::find(found, low ? criteria::largest_of(*field) : criteria::least_of(*field),
                           &criteria::CriterionResult::name);
     if (other != found.end() && other->value == f->value && field->threshold == std::nullopt)
       answer += " everywhere";
-    else if (f->somewhere)
+    else if (f->somewhere && !cut)
       answer += " " + format.place(value.where);
     // Where the field has a threshold the share beyond it comes first, for one value of the worst
     // spot says little.
@@ -316,8 +302,7 @@ std::string criteria_lines(const std::vector<criteria::CriterionResult>& found, 
     if (field->threshold && share != found.end())
       answer = fmt::format("{} {:g} in {} % of what was cast{}; {} {}", low ? "below" : "above",
                            *field->threshold * field->shown().factor, digits(100 * share->value, 3),
-                           field == &criteria::fields::k_tearing_tendency ? by_shrinkage(found) : "",
-                           low ? "least" : "largest", answer);
+                           by_shrinkage(*field, found), low ? "least" : "largest", answer);
     text += line(field->answer, answer);
   }
   return text;
