@@ -29,13 +29,21 @@ Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Materia
   of_solid_ = of(std::vector<double>(mesh.x.size(), 1.0), {1, std::vector<int>(n_bodies, 0)});
 }
 
+void Coherency::set_shells(std::span<const std::string> surfaces, std::span<const double> length) {
+  std::vector<char> melts;
+  for (const mesh::ElementBlock& block : mesh_.blocks)
+    melts.push_back(std::ranges::find(blocks_, &block) != blocks_.end());
+  depth_.emplace(mesh_, surfaces, melts, length);
+  if (!depth_->any()) depth_.reset();
+}
+
 std::vector<double> Coherency::of(std::span<const double> solid_fraction,
                                   const mechanics::BodyFields& fields) const {
   if (!melts_) return {};
   // The coherency of a node is the least of its elements: a wall lets go of elements, and an element is as
   // coherent as the mean of its vertices.
   constexpr double k_unknown = -1;
-  std::vector<double> coherency(mesh_.x.size(), k_unknown);
+  std::vector<double> coherency(mesh_.x.size(), k_unknown), of_nodes(mesh_.x.size(), 1.0);
   for (const mesh::ElementBlock* block : blocks_) {
     const auto body = as_size(block->body);
     const double of_one = 1 / materials_[body].casting.coherency_fraction;
@@ -48,6 +56,7 @@ std::vector<double> Coherency::of(std::span<const double> solid_fraction,
       for (std::size_t a = 0; a < vertices; ++a) sum += solid_fraction[as_size(nodes[a]) * width + field];
       const double of_element = of_one * (sum / static_cast<double>(vertices));
       for (const Index node : nodes) {
+        of_nodes[as_size(node)] = of_one * solid_fraction[as_size(node) * width + field];
         double& least = coherency[as_size(node)];
         least = least == k_unknown ? of_element : std::min(least, of_element);
       }
@@ -55,6 +64,7 @@ std::vector<double> Coherency::of(std::span<const double> solid_fraction,
   }
   // Nodes of bodies that do not melt are coherent.
   std::ranges::replace(coherency, k_unknown, 1.0);
+  if (depth_) depth_->limit(of_nodes, coherency);
   parallel::GhostExchange(mesh_).update(coherency, 1);
   return coherency;
 }

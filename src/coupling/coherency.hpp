@@ -5,15 +5,19 @@
 /// pores.hpp). A node is as coherent as the least of its elements: what it holds on to must carry before it
 /// can leave its wall, rub, or count as casting. A node that is solid next to an element that is melt would
 /// be pulled off its wall by what the melt weighs, by a length that follows the size of the step
-/// (docs/theory/step_and_mesh.md).
+/// (docs/theory/step_and_mesh.md). On a surface in contact the shell has a least thickness besides
+/// (skin_depth.hpp).
 ///
 /// The solid fraction of a moment is that of the nodes' enthalpy, which alone determines it where freezing is
 /// isothermal; without a thermal phase it is that of the temperature.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "coupling/skin_depth.hpp"
 #include "heat/loads/thermal_state.hpp"
 #include "linear/active_set.hpp"
 #include "material/material.hpp"
@@ -35,6 +39,10 @@ class Coherency {
   Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
             const linear::ActiveSet& active);
 
+  /// From now on shells have a least thickness at these surfaces (skin_depth.hpp).
+  /// @param length  of every body [m]; zero: none
+  /// Collective.
+  void set_shells(std::span<const std::string> surfaces, std::span<const double> length);
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }
   /// Whether a node, local, is of such a body as far as the elements of this process tell: all of an owned
@@ -58,6 +66,7 @@ class Coherency {
   std::vector<const mesh::ElementBlock*> blocks_;    ///< of bodies that deform and can melt
   std::vector<const material::Material*> material_;  ///< [local node]; null where nothing melts
   std::vector<double> of_solid_;
+  std::optional<SkinDepth> depth_;
   bool melts_ = false;
 };
 

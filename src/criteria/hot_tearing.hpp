@@ -46,7 +46,7 @@ namespace solidus::criteria {
 
 /// Solid fractions at which grains bridge, and between which the ratio of Clyne and Davies takes its times.
 inline constexpr double k_bridged = 0.98;
-/// Δp_c, at which a pore opens between grains [Pa]: the authors' value, decision 0113.
+/// Δp_c, at which a pore opens between grains [Pa]: the authors' value, decision 0111.
 inline constexpr double k_tearing_drop = 2000;
 /// The largest Δp/Δp_c that is told: the law says no more of what is a hundred times beyond its threshold.
 inline constexpr double k_most_tendency = 100;

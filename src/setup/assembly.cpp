@@ -144,6 +144,12 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
     for (const std::string& surface : {pair->parts().spec.slave, pair->parts().spec.master})
       if (surface != pair->parts().spec.master || !pair->parts().spec.rigid_master)
         in_contact.push_back(surface);
+  // What grows has another mesh in each step; there elements alone decide.
+  if (!a.growth) {
+    std::vector<double> shell = sections_of(spec, a.mesh);
+    for (double& length : shell) length *= coupling::k_shell_depth;
+    a.coherency->set_shells(in_contact, shell);
+  }
   a.skin = std::make_unique<coupling::SkinShare>(a.mesh, spec.analysis.kind, in_contact, *a.coherency);
   if (a.skin->any()) a.phases.skin = a.skin.get();
 }

@@ -317,6 +317,20 @@ TEST(CoupledSteps, ABarInAClosedDieFreezesAtTheSameTimeWithTheSameGapAndPoresWha
                    0.0518);
 }
 
+// Where the coherency of elements alone decides, the first gaps are 12.2 and 21.7 µm.
+TEST(CoupledSteps, TheFirstGapOfABarIsTheSameWithElementsOfHalfTheSize) {
+  std::vector<double> gaps;
+  for (const int cells : {16, 32}) {
+    k_here.write("fine.msh", testing::square_bar(Piece::half, cells));
+    const CaseRun run = k_here.run("fine_bar", testing::square_bar_case(Piece::half, "fine.msh", true),
+                                   {"time.step=0.25 s", "time.end=10 s"});
+    ASSERT_TRUE(run.finished) << run.reason;
+    gaps.push_back(testing::at(run.history, "gap_most[um]", 10));
+  }
+  EXPECT_NEAR(gaps[1], 9.8, 0.5);
+  EXPECT_NEAR(gaps[0], gaps[1], 0.12 * gaps[1]);
+}
+
 TEST(CoupledSteps, ACylinderInAnOpenMouldFreezesAtTheSameTimeWithTheSameGapWhateverTheStep) {
   expect_converged(sweep("cylinder", k_cylinder), 28.06, 124.0, 0.0005);
 }

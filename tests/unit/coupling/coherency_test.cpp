@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "../mechanics/lattice.hpp"
 #include "numbers/table.hpp"
 
@@ -58,6 +61,55 @@ TEST(Coherency, OfSolidMetalIsOneOverTheFractionBitByBit) {
   const Strip strip(0.3);
   EXPECT_EQ(strip.at(9), strip.coherency.of_solid());
   for (const double of_solid : strip.coherency.of_solid()) EXPECT_EQ(of_solid, 1 / 0.3);
+}
+
+/// A plate of AxB quads or hexahedra whose wall at x = 0 is in contact, with a solid fraction that falls by
+/// 0.1 a metre from 1 there.
+struct Plate {
+  mesh::Mesh mesh;
+  std::vector<material::Material> materials{freezes(0.5)};
+  coupling::Coherency coherency;
+
+  Plate(mesh::Shape shape, int cells, double size)
+      : mesh([&] {
+          mesh::RawMesh raw = test::make_raw({.shape = shape, .cells = {cells, 2, 1}, .size = {size, 1, 1}});
+          mesh::validate_and_orient(raw, "lattice");
+          return mesh::distribute(raw, {"body"}, {"left"});
+        }()),
+        coherency(mesh, materials, linear::ActiveSet(mesh, {})) {}
+  /// Coherency of the wall where the isotherm of the coherency fraction lies at a depth, with a least
+  /// thickness of the shell.
+  std::vector<double> of_wall(double depth, double thickness) {
+    const std::vector<std::string> wall{"left"};
+    coherency.set_shells(wall, std::vector<double>{thickness});
+    // Linear from 800 K (solid) to 900 K (melt): half solid at 850 K, at x = depth.
+    std::vector<double> temperature, of_wall;
+    for (const mesh::Point& x : mesh.x) temperature.push_back(850 + 10 * (x[0] - depth));
+    const std::vector<double> of_nodes = coherency.at(nullptr, {}, temperature);
+    for (std::size_t i = 0; i < mesh.x.size(); ++i)
+      if (mesh.x[i][0] == 0) of_wall.push_back(of_nodes[i]);
+    return of_wall;
+  }
+};
+
+TEST(Coherency, OfAWallIsTheDepthOfTheIsothermOverTheLeastThicknessOfAShell) {
+  for (const mesh::Shape shape : {mesh::Shape::quad4, mesh::Shape::tri3})
+    for (const int cells : {8, 16, 40}) {
+      Plate plate(shape, cells, 4);
+      // Elements of at most half a metre at the wall are coherent; the shell is thinner than asked for.
+      for (const double depth : {0.7, 1.1, 1.9})
+        for (const double c : plate.of_wall(depth, 2)) EXPECT_NEAR(c, depth / 2, 1e-12) << cells;
+      // It is as thick, or no thickness is asked for: the elements decide.
+      const std::vector<double> thick = plate.of_wall(2.1, 2), any = plate.of_wall(0.7, 0);
+      for (const double c : thick) EXPECT_GE(c, 1) << cells;
+      for (const double c : any) EXPECT_GE(c, 1) << cells;
+    }
+}
+
+TEST(Coherency, OfAWallBehindWhichAllIsSolidOrMeltIsThatOfItsElements) {
+  Plate plate(mesh::Shape::quad4, 8, 4);
+  for (const double c : plate.of_wall(9, 2)) EXPECT_GT(c, 1);
+  for (const double c : plate.of_wall(-1, 2)) EXPECT_LT(c, 1);
 }
 
 }  // namespace
