@@ -2,7 +2,7 @@
 
 import json
 
-from solidus_plots import fields
+from solidus_plots import columns, fields
 from solidus_plots.vtu import ResultError
 
 
@@ -17,14 +17,32 @@ def read_summary(folder):
         raise ResultError(f"{file}: not a summary of Solidus ({error})") from error
 
 
-def _of_castings(castings):
-    for name, casting in castings.items():
-        if "solid_fraction" in casting:
-            yield f"{name}: solid fraction[1]", casting["solid_fraction"]
-        if "last_melt_froze" in casting:
-            yield f"{name}: last melt froze[s]", casting["last_melt_froze"]["value[s]"]
-        if "hottest_melt" in casting:
-            yield f"{name}: hottest melt[degC]", casting["hottest_melt"]["value[K]"] - 273.15
+def _told(given):
+    """The answers that a summary has, as their declarations order them, but all of a casting before those of the next: (name with unit, row,
+    what the summary says of it: a number, or an object with the number). A row of None is the place of the criteria."""
+    def one(row, entry, of=""):
+        if entry is not None:
+            yield f"{row['label'].replace('{}', of)}[{row['shown']['unit']}]", row, entry
+
+    for name, casting in given.get("castings", {}).items():
+        for row in columns.ANSWERS:
+            if row["of"] == "casting":
+                yield from one(row, casting.get(row["name"]), name)
+    for row in columns.ANSWERS:
+        if row["of"] == "run":
+            yield from one(row, given.get(row["name"]))
+        elif row["of"] == "contact":
+            for name, entry in given.get(row["name"], {}).items():
+                yield from one(row, entry, name)
+        elif row["of"] == "criteria":
+            yield "", None, None
+
+
+def _number(row, entry):
+    """The number of an answer in the unit in which it is shown."""
+    if isinstance(entry, dict):
+        entry = entry[row["number"] if row["number"] in entry else f"{row['number']}[{row['unit']}]"]
+    return row["shown"]["factor"] * entry + row["shown"]["offset"]
 
 
 def _error_of(entry, unit, factor=1.0):
@@ -51,34 +69,22 @@ def _criteria(summary):
 def bands(summary):
     """Name as of answers() -> half width of the error of step and mesh, where the run states it."""
     given, found = summary.get("answers", {}), {}
-    for name, casting in given.get("castings", {}).items():
-        found[f"{name}: last melt froze[s]"] = _error_of(casting.get("last_melt_froze"), "s")
-        found[f"{name}: hottest melt[degC]"] = _error_of(casting.get("hottest_melt"), "K")
-    for contact, gap in given.get("largest_gaps", {}).items():
-        found[f"largest gap of {contact}[mm]"] = _error_of(gap, "m", 1e3)
-    found["largest distortion[mm]"] = _error_of(given.get("largest_distortion"), "m", 1e3)
-    found["largest von Mises stress[MPa]"] = _error_of(given.get("largest_von_mises"), "Pa", 1e-6)
-    found["pores, share of the casting[%]"] = _error_of(given.get("pores"), "1", 100.0)
-    criteria = given.get("errors_of_criteria", {})
-    for name, field in _criteria(summary).items():
-        found[name] = _error_of(criteria.get(field.finding.split("[")[0]), "SI", field.factor)
-    if of_parts := _niyama_of_parts(summary):
-        found[of_parts[0]] = _error_of(of_parts[1], "K^0.5 s^0.5/m", 1e-3)
+    for name, row, entry in _told(given):
+        if row is None:
+            criteria = given.get("errors_of_criteria", {})
+            for answer, field in _criteria(summary).items():
+                found[answer] = _error_of(criteria.get(field.finding.split("[")[0]), "SI", field.factor)
+            if of_parts := _niyama_of_parts(summary):
+                found[of_parts[0]] = _error_of(of_parts[1], "K^0.5 s^0.5/m", 1e-3)
+        else:
+            found[name] = _error_of(entry, row["unit"], row["shown"]["factor"])
     return {name: band for name, band in found.items() if band is not None}
 
 
 def places(summary):
     """Name as of answers() -> where the value was found [m], where the run states it."""
-    given, found = summary.get("answers", {}), {}
-    for name, casting in given.get("castings", {}).items():
-        found[f"{name}: last melt froze[s]"] = casting.get("last_melt_froze")
-        found[f"{name}: hottest melt[degC]"] = casting.get("hottest_melt")
-    found["pools cut off[1]"] = given.get("pools_cut_off")
-    for contact, gap in given.get("largest_gaps", {}).items():
-        found[f"largest gap of {contact}[mm]"] = gap
-    found["largest distortion[mm]"] = given.get("largest_distortion")
-    found["largest von Mises stress[MPa]"] = given.get("largest_von_mises")
-    found = {name: entry["at[m]"] for name, entry in found.items() if isinstance(entry, dict) and "at[m]" in entry}
+    found = {name: entry["at[m]"] for name, row, entry in _told(summary.get("answers", {}))
+             if isinstance(entry, dict) and "at[m]" in entry and row["name"] != "pores"}
     criteria = summary.get("criteria", {})
     for name, field in _criteria(summary).items():
         where = criteria.get(f"{field.finding.split('[')[0]}_at[m]")
@@ -91,24 +97,14 @@ def places(summary):
 
 def answers(summary):
     """Name with unit -> number: what the run answers and what its criteria found, in the units of its terminal."""
-    given, found = summary.get("answers", {}), {}
-    found.update(_of_castings(given.get("castings", {})))
-    if "yield" in given:
-        found["yield[%]"] = 100.0 * given["yield"]
-    if "pools_cut_off" in given:
-        found["pools cut off[1]"] = given["pools_cut_off"]["number"]
-    criteria = summary.get("criteria", {})
-    for name, field in _criteria(summary).items():
-        if field.finding in criteria:
-            found[name] = field.factor * criteria[field.finding] + field.offset
-    if of_parts := _niyama_of_parts(summary):
-        found[of_parts[0]] = 1e-3 * of_parts[1]["value[K^0.5 s^0.5/m]"]
-    for contact, gap in given.get("largest_gaps", {}).items():
-        found[f"largest gap of {contact}[mm]"] = 1e3 * gap["value[m]"]
-    if "largest_distortion" in given:
-        found["largest distortion[mm]"] = 1e3 * given["largest_distortion"]["value[m]"]
-    if "pores" in given:
-        found["pores, share of the casting[%]"] = 100.0 * given["pores"]["share_of_casting"]
-    if "largest_von_mises" in given:
-        found["largest von Mises stress[MPa]"] = 1e-6 * given["largest_von_mises"]["value[Pa]"]
+    found, criteria = {}, summary.get("criteria", {})
+    for name, row, entry in _told(summary.get("answers", {})):
+        if row is not None:
+            found[name] = _number(row, entry)
+            continue
+        for answer, field in _criteria(summary).items():
+            if field.finding in criteria:
+                found[answer] = field.factor * criteria[field.finding] + field.offset
+        if of_parts := _niyama_of_parts(summary):
+            found[of_parts[0]] = 1e-3 * of_parts[1]["value[K^0.5 s^0.5/m]"]
     return found

@@ -220,7 +220,7 @@ def draw_history(one, other, folder):
                 for header in members:
                     panel.plot(clock(other.history["time[s]"]), other.history[header], color=colour, linestyle="--",
                                linewidth=1.1)
-            panel.set_ylabel(style.axis_label(style.QUANTITY.get(unit, "Value"), unit))
+            panel.set_ylabel(style.axis_label(fields.measure(unit), unit))
             panel.margins(x=0)
             panel.legend(**curves.BESIDE)
         axes[0, 0].set_title(f"{one.name} (lines), {other.name} (dashes)", loc="left", fontsize=9)

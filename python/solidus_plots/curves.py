@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from solidus_plots import style
+from solidus_plots import columns, fields, style
 from solidus_plots.history import Table
 from solidus_plots.vtu import ResultError
 
@@ -63,7 +63,7 @@ def _panels(history, headers):
 
 def _together(headers):
     """The name of a line that stands for several columns."""
-    names = [Table.name(header).replace("_", " ") for header in headers]
+    names = [columns.label(header) for header in headers]
     return " = ".join(names[:3]) + (f" = … ({len(names)})" if len(names) > 3 else "")
 
 
@@ -82,7 +82,7 @@ def unit_groups(history, folder):
     for unit, headers in history.by_unit().items():
         if not any(history[header].any() for header in headers):
             continue
-        quantity = style.QUANTITY.get(unit, "Value")
+        quantity = fields.measure(unit)
         panels = _panels(history, headers)
         figure, axes = plt.subplots(len(panels), 1, figsize=(5.6, 1.2 + 2.4 * len(panels)), sharex=True,
                                     squeeze=False)

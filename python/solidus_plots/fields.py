@@ -59,8 +59,26 @@ def _read(row):
                  row["shown"]["unit"], row["shown"]["factor"], row["shown"]["offset"])
 
 
-_known = {row["name"]: _read(row) for row in
-          json.loads((Path(__file__).parent / "fields.json").read_text(encoding="utf-8"))["fields"]}
+_DECLARED = json.loads((Path(__file__).parent / "fields.json").read_text(encoding="utf-8"))
+_known = {row["name"]: _read(row) for row in _DECLARED["fields"]}
+_UNITS, _SHOWN = _DECLARED["unit_names"], _DECLARED["units"]
+
+
+def unit_text(unit):
+    """A unit as people write it, "m²" for "m2"; one that the program does not name as it is."""
+    named = _UNITS.get(unit)
+    return named["text"] if named and named["text"] else unit
+
+
+def measure(unit):
+    """What a unit measures, for the axis of a curve: "Temperature"."""
+    return _UNITS[unit]["measures"] if unit in _UNITS else "Value"
+
+
+def to_shown(value, unit):
+    """A value in SI in the unit in which people read it, and that unit."""
+    shown = _SHOWN.get(unit)
+    return (value, unit) if shown is None else (shown["factor"] * value + shown["offset"], shown["unit"])
 
 
 def declare(summary):
@@ -96,5 +114,7 @@ def colour_map(name, component, low, high):
 
 
 def conversion(si, wanted):
-    """(factor, offset) from a unit in SI to one in which a field is shown; None where no field is."""
+    """(factor, offset) from a unit in SI to one in which its values, or those of a field, are shown; None where none are."""
+    if si in _SHOWN and _SHOWN[si]["unit"] == wanted:
+        return _SHOWN[si]["factor"], _SHOWN[si]["offset"]
     return next(((field.factor, field.offset) for field in _known.values() if (field.unit, field.shown) == (si, wanted)), None)

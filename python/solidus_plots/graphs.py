@@ -1,11 +1,13 @@
 """Columns of a table over one of its columns, with a line for each value of another one: what repeats in
 cycles, and profiles along a surface."""
 
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 from matplotlib.ticker import MaxNLocator
 import numpy as np
 
-from solidus_plots import style
+from solidus_plots import columns, style
 from solidus_plots.history import Table, read_table
 from solidus_plots.vtu import ResultError
 
@@ -17,9 +19,9 @@ def _column(table, header, spec):
     return table[header]
 
 
-def _label(header, quantity=None):
-    words = Table.name(header).replace("_", " ")
-    return style.axis_label(quantity or (words.capitalize() if len(words) > 1 else words), Table.unit(header))
+def _label(header, spec, quantity=None):
+    words = columns.label(header, Path(spec.get("table", "history.csv")).stem)
+    return style.axis_label(quantity or (words[0].upper() + words[1:] if len(words) > 1 else words), Table.unit(header))
 
 
 def _kept(table, spec):
@@ -66,8 +68,8 @@ def draw(spec, results, folder):
         for index, (header, label) in enumerate(lines):
             axes.plot(x[kept], _column(table, header, spec)[kept], label=label, **style.line_style(index))
         count = len(lines)
-    axes.set(xlabel=_label(spec["x"], spec.get("x_quantity")),
-             ylabel=_label(lines[0][0], spec.get("quantity")))
+    axes.set(xlabel=_label(spec["x"], spec, spec.get("x_quantity")),
+             ylabel=_label(lines[0][0], spec, spec.get("quantity")))
     axes.set_title(spec.get("title", ""), loc="left")
     axes.margins(x=0)
     if "part" in spec:

@@ -19,20 +19,11 @@ DASHES = ["-", "--", "-.", ":"]
 BODIES = ["#a9b6c3", "#d3bd94", "#9db89a", "#c3a5b0", "#b8b093"]
 NO_VALUE = (0.82, 0.82, 0.82)  # where a field has none yet
 
-# What people read instead of UDUNITS' ASCII.
-UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm",
-             "cm3": "cm³", "K0.5 s0.5/m": "√(K s)/m", "K0.5 s0.5/mm": "√(K s)/mm",
-             "K0.5 s0.5/cm": "√(K s)/cm"}
-QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Length", "J": "Energy",
-            "W": "Heat flow", "N": "Force", "MPa": "Stress", "Pa": "Stress", "1": "Share", "s": "Time",
-            "W/m2/K": "Conductance"}
-
-# Units a picture may ask for: (SI unit, unit) -> (factor, offset).
-CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um"): (1e6, 0.0),
-               ("Pa", "MPa"): (1e-6, 0.0), ("1", "%"): (100.0, 0.0), ("J", "kJ"): (1e-3, 0.0),
-               ("s", "min"): (1 / 60, 0.0), ("s", "h"): (1 / 3600, 0.0), ("K/m", "K/mm"): (1e-3, 0.0),
-               ("m/s", "mm/s"): (1e3, 0.0), ("m3", "cm3"): (1e6, 0.0),
-               ("K0.5 s0.5/m", "K0.5 s0.5/mm"): (1e-3, 0.0), ("K0.5 s0.5/m", "K0.5 s0.5/cm"): (1e-2, 0.0)}
+# Units of roots, which the program writes in its own manner.
+ROOTS = {"K0.5 s0.5/m": "√(K s)/m", "K0.5 s0.5/mm": "√(K s)/mm", "K0.5 s0.5/cm": "√(K s)/cm"}
+# Units that a picture may ask for beyond those in which the program shows values: (SI unit, unit) -> (factor, offset).
+CONVERSIONS = {("m", "um"): (1e6, 0.0), ("J", "kJ"): (1e-3, 0.0), ("s", "min"): (1 / 60, 0.0), ("s", "h"): (1 / 3600, 0.0),
+               ("1", "%"): (100.0, 0.0), ("K0.5 s0.5/m", "K0.5 s0.5/mm"): (1e-3, 0.0), ("K0.5 s0.5/m", "K0.5 s0.5/cm"): (1e-2, 0.0)}
 
 
 def setup():
@@ -52,7 +43,7 @@ def setup():
 
 
 def unit_text(unit):
-    return UNIT_TEXT.get(unit, unit)
+    return ROOTS.get(unit) or fields.unit_text(unit)
 
 
 def body_colour(index):

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "coupling/all_fields.hpp"
+#include "coupling/columns.hpp"
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
 #include "criteria/quantities.hpp"
@@ -17,6 +18,8 @@
 
 namespace solidus::results {
 
+namespace columns = coupling::columns;
+
 namespace {
 
 bool dynamic(const coupling::Phases& phases) {
@@ -27,13 +30,10 @@ bool follows_internal_energy(const coupling::Phases& phases, const RecorderOptio
   return coupling::has_internal_energy(phases, options.stages);
 }
 
-/// @param taken  columns that probes give
-GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
-                                      const std::vector<CsvColumn>& taken) {
+GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options) {
   GlobalHistory::Options columns{.melting = phases.heat != nullptr && options.melting,
                                  .contact = !phases.contacts.empty(),
                                  .mechanics = phases.mechanics != nullptr,
-                                 .taken = taken,
                                  .plastic = phases.mechanics != nullptr && phases.mechanics->bodies().plastic,
                                  .dynamics = dynamic(phases),
                                  .stability = phases.audits_stability(),
@@ -52,20 +52,20 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
 }
 
 std::vector<Reading> with_stage(std::vector<Reading> readings, int stage, int cycle) {
-  readings.insert(readings.begin(), {{{"stage", "1"}, static_cast<double>(stage)},
-                                     {{"cycle", "1"}, static_cast<double>(cycle)}});
+  readings.insert(readings.begin(), {{csv_column(columns::k_stage), static_cast<double>(stage)},
+                                     {csv_column(columns::k_cycle), static_cast<double>(cycle)}});
   return readings;
 }
 
 std::vector<Reading> with_shot(std::vector<Reading> readings, int shot, double since_pouring) {
-  readings.insert(readings.begin(),
-                  {{{"shot", "1"}, static_cast<double>(shot)}, {{"time_since_pouring", "s"}, since_pouring}});
+  readings.insert(readings.begin(), {{csv_column(columns::k_shot), static_cast<double>(shot)},
+                                     {csv_column(columns::k_since_pouring), since_pouring}});
   return readings;
 }
 
 // The columns of history.csv besides time and probes, all with the value zero: what probes may repeat.
 std::vector<Reading> global_readings(const coupling::Phases& phases, const RecorderOptions& options) {
-  std::vector<Reading> readings = GlobalHistory(global_columns(phases, options, {})).all();
+  std::vector<Reading> readings = GlobalHistory(global_columns(phases, options)).all();
   if (options.shots) readings = with_shot(std::move(readings), 0, 0);
   return options.stages ? with_stage(std::move(readings), 0, 0) : readings;
 }
@@ -113,7 +113,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       rank_(processes::rank()),
       fields_(mesh, phases, options_.kind),
       probes_(mesh, options_.kind, options_.probes, fields_.bodies(), global_readings(phases, options_)),
-      globals_(global_columns(phases, options_, probes_.columns())),
+      globals_(global_columns(phases, options_), probes_.columns()),
       output_(folder, mesh, options_.formats,
               options_.continue_from ? std::optional(options_.continue_from->state.time) : std::nullopt),
       checkpoints_(folder.root()),
@@ -127,17 +127,18 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
   // Tables are written by the first process alone. A run that continues keeps the rows up to its checkpoint.
   on_first_process([&] {
     // Columns of the history: time, stage and shot, probes, then the sums over the whole case.
-    std::vector<CsvColumn> columns{{"time", "s"}};
-    if (options_.stages) columns.insert(columns.end(), {{"stage", "1"}, {"cycle", "1"}});
-    if (options_.shots) columns.insert(columns.end(), {{"shot", "1"}, {"time_since_pouring", "s"}});
-    columns.insert(columns.end(), probes_.columns().begin(), probes_.columns().end());
-    for (const CsvColumn& c : globals_.columns()) columns.push_back(c);
+    std::vector<CsvColumn> head{csv_column(columns::k_time)};
+    const auto add = [&](const quantities::Column& column) { head.push_back(csv_column(column)); };
+    if (options_.stages) add(columns::k_stage), add(columns::k_cycle);
+    if (options_.shots) add(columns::k_shot), add(columns::k_since_pouring);
+    head.insert(head.end(), probes_.columns().begin(), probes_.columns().end());
+    for (const CsvColumn& c : globals_.columns()) head.push_back(c);
     if (options_.continue_from) {
       const double time = options_.continue_from->state.time;
-      tables_.history.emplace(folder.history(), columns, time);
+      tables_.history.emplace(folder.history(), head, time);
       tables_.steps.emplace(folder.steps(), step_columns(step_table()), time);
     } else {
-      tables_.history.emplace(folder.history(), columns);
+      tables_.history.emplace(folder.history(), head);
       tables_.steps.emplace(folder.steps(), step_columns(step_table()));
     }
     // Tables of pools, feeding and shots exist only where the run has something to put into them.

@@ -10,22 +10,20 @@
 #include "results/output/run_folder.hpp"
 #include "system/processes.hpp"
 
+namespace solidus::results {
 namespace {
-
-using namespace solidus;
-using results::FieldSet;
 
 constexpr std::string_view k_file = "extremes.csv";
 
-class ExtremesTable final : public results::FieldWriter {
+class ExtremesTable final : public FieldWriter {
  public:
-  ExtremesTable(const results::RunFolder& folder, std::optional<double> from)
+  ExtremesTable(const RunFolder& folder, std::optional<double> from)
       : path_(folder.root() / k_file), from_(from) {}
 
   void write(double time, const FieldSet& bodies, const std::map<std::string, FieldSet>&) override {
-    std::vector<results::CsvColumn> columns{{"time", "s"}};
+    std::vector<CsvColumn> columns{{"time", "s"}};
     std::vector<double> row{time};
-    for (const results::Field& field : bodies.all()) {
+    for (const Field& field : bodies.all()) {
       if (field.components > 1 || field.place != mesh::FieldPlace::node) continue;
       std::vector<double> storage;
       const std::span<const double> values = field.read(storage);
@@ -37,7 +35,7 @@ class ExtremesTable final : public results::FieldWriter {
       columns.insert(columns.end(),
                      {{field.name + "_least", field.unit}, {field.name + "_largest", field.unit}});
     }
-    results::on_first_process([&] {
+    on_first_process([&] {
       if (!table_ && from_)
         table_.emplace(path_, columns, *from_);
       else if (!table_)
@@ -49,19 +47,22 @@ class ExtremesTable final : public results::FieldWriter {
  private:
   std::filesystem::path path_;
   std::optional<double> from_;
-  std::optional<results::CsvTable> table_;  ///< on process 0, from the first moment on
+  std::optional<CsvTable> table_;  ///< on process 0, from the first moment on
 };
 
-std::unique_ptr<results::FieldWriter> make(const results::RunFolder& folder, const mesh::Mesh&,
-                                           std::optional<double> from) {
+std::unique_ptr<FieldWriter> make(const RunFolder& folder, const mesh::Mesh&, std::optional<double> from) {
   return std::make_unique<ExtremesTable>(folder, from);
 }
 
-const results::AddFieldFormat k_extremes{
-    {.name = "extremes",
-     .place = 15,
-     .doc = "The least and largest value of each field at each output time in a table extremes.csv too.",
-     .files = {k_file},
-     .make = &make}};
+FieldFormat extremes() {
+  return {.name = "extremes",
+          .place = 15,
+          .doc = "The least and largest value of each field at each output time in a table extremes.csv too.",
+          .files = {k_file},
+          .make = &make};
+}
+
+const AddFieldFormat k_extremes{extremes()};
 
 }  // namespace
+}  // namespace solidus::results

@@ -5,10 +5,8 @@
 
 #include "mesh/files/file_format.hpp"
 
+namespace solidus::mesh {
 namespace {
-
-using namespace solidus;
-using namespace solidus::mesh;
 
 bool begins(std::string_view head) {
   return head.starts_with("NDIME=");
@@ -95,12 +93,17 @@ std::optional<RawMesh> read(const std::string& path, double unit_in_metres) {
   return mesh;
 }
 
-const AddFileFormat k_su2{{.name = "SU2",
-                           .place = 95,
-                           .endings = {".su2"},
-                           .begins = &begins,
-                           .begins_with = "'NDIME='",
-                           .told = ".su2",
-                           .read = &read}};
+FileFormat su2() {
+  return {.name = "SU2",
+          .place = 95,
+          .endings = {".su2"},
+          .begins = &begins,
+          .begins_with = "'NDIME='",
+          .told = ".su2",
+          .read = &read};
+}
+
+const AddFileFormat k_su2{su2()};
 
 }  // namespace
+}  // namespace solidus::mesh

@@ -3,17 +3,15 @@
 
 #include "check/finding_family.hpp"
 
+namespace solidus::check {
 namespace {
-
-using namespace solidus;
 
 /// Twice the volume over the skin of what melt fills in sand [m].
 constexpr double k_thinnest = 2e-3;
 
-void find(const cases::CaseSpec& spec, const setup::Assembly&, const check::CaseMeasures& m,
-          check::Findings& findings) {
-  for (const check::Pour& pour : m.pours) {
-    const check::BodyMeasures& body = m.bodies[pour.body];
+void find(const cases::CaseSpec& spec, const setup::Assembly&, const CaseMeasures& m, Findings& findings) {
+  for (const Pour& pour : m.pours) {
+    const BodyMeasures& body = m.bodies[pour.body];
     const double thickness = 2 * body.volume / body.skin;
     if (thickness < k_thinnest)
       findings.push_back(
@@ -24,11 +22,15 @@ void find(const cases::CaseSpec& spec, const setup::Assembly&, const check::Case
   }
 }
 
-const check::AddFindings k_thin_walls{{.name = "thin walls",
-                                       .place = 75,
-                                       .find = &find,
-                                       .rows = {{check::Topic::pour, "thin walls",
-                                                 fmt::format("a body that is poured has 2 V/A below {} mm",
-                                                             check::number(1e3 * k_thinnest))}}}};
+FindingFamily thin_walls() {
+  return {.name = "thin walls",
+          .place = 75,
+          .find = &find,
+          .rows = {{Topic::pour, "thin walls",
+                    fmt::format("a body that is poured has 2 V/A below {} mm", number(1e3 * k_thinnest))}}};
+}
+
+const AddFindings k_thin_walls{thin_walls()};
 
 }  // namespace
+}  // namespace solidus::check

@@ -1,5 +1,5 @@
-"""A criterion with its key of material cards, in one file of the tests that no source, Python or page names, is wherever
-criteria and keys are."""
+"""A criterion of hot tearing after Rappaz, Drezet and Gremaud with its key of material cards, in one file of the tests that no source,
+Python or page names, is wherever criteria and keys are."""
 
 import base64
 import csv
@@ -13,6 +13,8 @@ import zlib
 import program
 from program import ProgramTest, solidus
 from solidus_casting import Results
+from solidus_plots import fields
+from solidus_plots.vtu import read_collection, read_fields
 
 NAME, LABEL = "feedable_strain_rate", "Strain rate that melt feeds"
 KEY = "bridged_fraction"
@@ -65,6 +67,8 @@ group = "lower"
 
 
 class AddedCriterion(ProgramTest):
+    """Probes, `check`, field files, summary, terminal, report with label and unit, pictures and `compare` have it."""
+
     @classmethod
     def setUpClass(cls):
         cls.own, program.PROGRAM = program.PROGRAM, os.environ["SOLIDUS_WITH_ADDED_PARTS"]
@@ -136,8 +140,12 @@ class AddedCriterion(ProgramTest):
         self.assertRegex(text, r"least strain rate that melt feeds +[\d.e-]+ 1/s at \(")
         with (self.folder / "out/history.csv").open() as file:
             self.assertIn("least[1/s]", next(csv.reader(file)))
-        fields = b"".join(file.read_bytes() for file in (self.folder / "out/fields").iterdir())
-        self.assertIn(f'Name="{NAME}"'.encode(), fields)
+            *_, last = csv.DictReader(file, ["time[s]", "least[1/s]", "in the chill[1/s]"])
+        self.assertEqual(float(last["least[1/s]"]), least)
+        grid = read_fields(read_collection(self.folder / "out/fields.pvd")[1][-1])
+        self.assertEqual(grid.units[NAME], "1/s")
+        values = grid.point_data[NAME]
+        self.assertEqual(values[values >= 0].min(), least)
 
     def test_the_report_shows_it_with_its_label_and_unit(self):
         self.run_to("out", "--report")
@@ -154,8 +162,15 @@ class AddedCriterion(ProgramTest):
         self.run_to("other", "--set", 'contact.interface.heat.conductance="1000 W/m2/K"')
         self.done("plot", "one", timeout=300)
         self.assertTrue((self.folder / f"one/plots/overview_{NAME}.png").exists())
+        summary = self.summary(self.folder / "one")
+        self.assertIsNone(fields.find(NAME))  # Python knows it by the summary of the run alone
+        fields.declare(summary)
+        self.assertEqual((fields.label(NAME), fields.find(NAME).shown, fields.find(NAME).no_value), (LABEL, "1/s", -1))
         text = self.done("compare", "one", "other", "--output", "difference", timeout=300)
         self.assertRegex(text, r"least strain rate that melt feeds\[1/s\] +\S+ +\S+")
+        with (self.folder / "difference/answers.csv").open() as file:
+            told = {row["answer"]: float(row["A"]) for row in csv.DictReader(file) if row["A"]}
+        self.assertEqual(told["least strain rate that melt feeds[1/s]"], summary["criteria"][f"{NAME}_min[1/s]"])
         with (self.folder / "difference/fields.csv").open() as file:
             units = {row["field"]: row["unit"] for row in csv.DictReader(file)}
         self.assertEqual(units[NAME], "1/s")

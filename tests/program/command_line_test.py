@@ -156,6 +156,17 @@ class CommandLine(ProgramTest):
         for option, file in (("--json", "python/solidus_plots/fields.json"), ("--manual", "docs/reference/fields.md")):
             self.assertEqual(self.done("explain", "--fields", option), (SOURCES / file).read_text(encoding="utf-8"), file)
 
+    def test_the_columns_of_tables_are_listed_once(self):
+        for option, file in (("--json", "python/solidus_plots/tables.json"), ("--manual", "docs/reference/tables.md")):
+            self.assertEqual(self.done("explain", "--tables", option), (SOURCES / file).read_text(encoding="utf-8"))
+        listed = self.done("explain", "--tables", "feeding")
+        self.assertIn("balance_defect[1]", listed)
+        self.assertNotIn("stored_heat", listed)
+        result = solidus("explain", "--tables", "histories", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("history", result.stderr)
+        self.assertEqual(solidus("explain", "--findings", "--json", cwd=self.folder).returncode, 1)
+
     def test_the_page_of_findings_is_that_of_the_program(self):
         """When this fails: ./dev docs, or its line that writes this page."""
         self.assertEqual(self.done("explain", "--findings", "--manual"), (SOURCES / "docs/reference/findings.md").read_text(encoding="utf-8"))

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from solidus_plots import fields, style
+from solidus_plots import columns, fields, style
 
 ROOT = Path(__file__).resolve().parents[2]
 NAMES = [row["name"] for row in json.loads((ROOT / "python/solidus_plots/fields.json").read_text(encoding="utf-8"))["fields"]]
@@ -15,7 +15,8 @@ NAMES = [row["name"] for row in json.loads((ROOT / "python/solidus_plots/fields.
 OTHERS = {
     "cases/": "keys of a case", "material/": "keys and columns of material cards", "input/": "arguments of tables",
     "point/": "columns of the tables of a material point", "python/": "members of Python's dictionaries",
-    "results/tables/step_columns.cpp": "columns of history.csv", "results/tables/pool_table.cpp": "columns of pools.csv",
+    "coupling/columns.hpp": "columns of tables", "coupling/step_columns.cpp": "columns of tables", "coupling/history_columns.cpp": "columns of tables",
+    "criteria/columns.cpp": "columns of pools.csv", "results/answers/answer_rows.hpp": "answers of summary.json",
     "results/checkpoint/checkpoint": "arrays of a checkpoint", "results/answers/answers_json.cpp": "members of summary.json",
     "results/formats/temperature_history.cpp": "data of a structural deck", "app/material_tables.cpp": "columns of material tables",
     "setup/friction_input.cpp": "keys of friction", "criteria/strain_criteria.cpp": "the name of its record", "contact/laws/": "keys of laws", "check/uncertain_parameters.cpp": "keys of a case",
@@ -23,7 +24,18 @@ OTHERS = {
     "check/findings/partly_in_contact.cpp": "a word of a key", "run/filling_input.cpp": "members of what a flow is asked",
     "setup/case_checks.cpp": "keys of a filling", "criteria/life_quantities.hpp": "rows of fields, apart from the others", "criteria/kinds/": "rows of fields in the file of their criterion", "criteria/die_quantities.hpp": "rows of fields of dies",
 }
+DECLARED = json.loads((ROOT / "python/solidus_plots/tables.json").read_text(encoding="utf-8"))
+# Words of one part, "work" or "gas", mean many things; names that begin with "_" are those of contacts and channels.
+COLUMNS = sorted({row["name"] for rows in [*DECLARED["tables"].values(), DECLARED["answers"]] for row in rows if "_" in row["name"]} - set(NAMES))
+# The files that declare them, and those where the same words mean something else.
+DECLARING = ("coupling/columns.hpp", "coupling/step_columns.cpp", "coupling/history_columns.cpp", "coupling/contact_columns.cpp",
+             "coupling/shot_columns.cpp", "heat/columns.hpp", "heat/channel_columns.cpp", "criteria/columns.cpp", "results/answers/answer_rows.hpp")
+OTHER_COLUMNS = {
+    "cases/time_keys.cpp": "keys of a case", "cases/physics_switch.cpp": "keys of a case", "setup/time_input.cpp": "keys of a case",
+    "point/record.cpp": "columns of the tables of a material point", "python/": "members of Python's dictionaries",
+}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+HEADER = re.compile(r"""["'`]([a-zA-Z_0-9]+)(?:\[[^\]"'`]*\])?["'`]""")  # with its unit or without
 QUOTED = re.compile(r"""["'`]([a-z_0-9]+)["'`]""")
 # Texts with nothing but commas, colons and brackets between them are members of one list.
 BETWEEN = re.compile(r"^[\s,\[\](){}]*$")
@@ -66,6 +78,60 @@ class OneRow(unittest.TestCase):
                 text = file.read_text(encoding="utf-8")
                 self.assertEqual(lists_of_names(text), [])
                 self.assertEqual(keys.findall(text), [])
+
+
+class Columns(unittest.TestCase):
+    def test_no_source_names_a_column_but_by_its_declaration(self):
+        self.assertGreater(len(COLUMNS), 60)
+        for file in sorted((ROOT / "src").rglob("*.[ch]pp")):
+            path = file.relative_to(ROOT / "src").as_posix()
+            if path in DECLARING or path.startswith(tuple(OTHER_COLUMNS)) or path.endswith("/quantities.hpp"):
+                continue
+            literals = set(HEADER.findall(COMMENT.sub("", file.read_text(encoding="utf-8"))))
+            self.assertEqual(literals & set(COLUMNS), set(), path)
+
+    def test_files_that_declare_columns_are_there(self):
+        for path in [*DECLARING, *(place for place in OTHER_COLUMNS if not place.endswith("/"))]:
+            self.assertTrue((ROOT / "src" / path).is_file(), path)
+
+    def test_neither_the_page_nor_the_pictures_give_a_column_a_label_or_a_group(self):
+        """They may take a column for what they show; then its label and unit are those of the declaration."""
+        names = "|".join(name for name in COLUMNS if not name.startswith("_"))
+        paired = re.compile(rf"""["'`]({names})(?:\[[^\]"'`]*\])?["'`]\s*[:,]\s*["'`][A-Z]""")
+        sets = re.compile(rf"""(?:Set\(|frozenset|[{{(\[])\s*["'`]({names})["'`],\s*["'`]({names})["'`]""")
+        own_tables = {"point.py", "constitutive.py", "fitting.py", "tools.py"}
+        for folder, suffix in (("web/report/src", "ts"), ("web/workbench/src", "ts"), ("python", "py")):
+            for file in sorted((ROOT / folder).rglob(f"*.{suffix}")):
+                if file.name in own_tables:
+                    continue
+                with self.subTest(file=file.name):
+                    text = file.read_text(encoding="utf-8")
+                    self.assertEqual(paired.findall(text), [])
+                    self.assertEqual(sets.findall(text), [])
+
+    def test_lists_of_an_older_page_would_be_found(self):
+        old = 'new Set(["stored_heat", "heat_in"]); [["heat_iterations", "Heat, it."]]'
+        names = "|".join(COLUMNS)
+        self.assertRegex(old, rf'["\'`]({names})["\'`]\s*[:,]\s*["\'`][A-Z]')
+        self.assertRegex(old, rf'[(\[]\s*["\'`]({names})["\'`],\s*["\'`]({names})["\'`]')
+
+    def test_rows_are_whole_and_differ(self):
+        for table, rows in DECLARED["tables"].items():
+            heads = [(row["name"], row["unit"], row["label"]) for row in rows if row["name"] != "_force_z"]  # of two kinds of analysis
+            self.assertEqual(len(heads), len(set(heads)), table)
+            for row in rows:
+                self.assertTrue(row["label"], row)
+                self.assertTrue(row.get("chart") is None or row["chart"] in DECLARED["charts"], row)
+                if row["unit"] not in ("", "1"):
+                    self.assertNotEqual(fields.measure(row["unit"]), "Value", row)
+
+    def test_labels_are_those_of_the_declarations(self):
+        self.assertEqual(columns.label("stored_heat[J]"), "Stored heat")
+        self.assertEqual(columns.label("stored_heat[kJ]"), "stored heat")  # a probe with a unit of its own
+        self.assertEqual(columns.label("wheel_normal_force[N]"), "wheel: normal force")
+        self.assertEqual(columns.label("T_center[degC]"), "T center")
+        self.assertEqual(columns.label("dt[s]", "steps"), "Step")
+        self.assertEqual((fields.unit_text("m2"), fields.unit_text("degC"), fields.unit_text("1"), fields.measure("J")), ("m²", "°C", "1", "Energy"))
 
 
 class Pictures(unittest.TestCase):

@@ -2,7 +2,7 @@
 // `node build.mjs OUT`; without OUT built/viewer.html.
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { readFileSync, writeFileSync, mkdirSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
@@ -11,7 +11,16 @@ import { deflateSync } from "fflate";
 const here = dirname(fileURLToPath(import.meta.url));
 const read = (file) => readFileSync(join(here, file), "utf8");
 const common = { bundle: true, minify: true, write: false, absWorkingDir: here, legalComments: "none", charset: "ascii", target: "es2021" };
-const script = (await build({ ...common, entryPoints: ["src/main.ts"], format: "iife" })).outputFiles[0].text.trim();
+// Sections of the page add themselves: each file of src/sections is imported, and no list names it.
+const sections = {
+  name: "sections",
+  setup({ onResolve, onLoad }) {
+    const folder = join(here, "src/sections");
+    onResolve({ filter: /^all-sections$/ }, () => ({ path: folder, namespace: "sections" }));
+    onLoad({ filter: /.*/, namespace: "sections" }, () => ({ resolveDir: folder, contents: readdirSync(folder).sort().map((file) => `import "./${file}";`).join("\n") }));
+  },
+};
+const script = (await build({ ...common, entryPoints: ["src/main.ts"], format: "iife", plugins: [sections] })).outputFiles[0].text.trim();
 const style = (await build({ ...common, entryPoints: ["src/style.css"] })).outputFiles[0].text.trim();
 
 const licences = ["three", "uplot", "fflate"].map((name) => {

@@ -1,5 +1,5 @@
 /// The keys of the files that a user writes; the fields that a run can have, as a list, one by one, as a page
-/// and as JSON; the findings of `check`, as a list and as a page.
+/// and as JSON; the columns of tables in the same forms; the findings of `check`, as a list and as a page.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +9,7 @@
 #include "app/case_arguments.hpp"
 #include "app/declared_files.hpp"
 #include "app/findings_page.hpp"
+#include "app/tables_page.hpp"
 #include "app/verb.hpp"
 #include "coupling/all_fields.hpp"
 #include "input/key_docs.hpp"
@@ -16,6 +17,7 @@
 #include "mechanics/quantities.hpp"
 #include "quantities/names.hpp"
 #include "results/output/quantity_json.hpp"
+#include "results/tables/all_tables.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::app {
@@ -115,7 +117,9 @@ std::string json_of_fields() {
   results::Json::Array rows{results::json(mechanics::fields::k_first_principal_stress)};
   for (const Quantity* field : coupling::all_fields()) rows.push_back(results::json(*field));
   results::Json document;
-  document.add("fields", std::move(rows)).add("units", results::shown_units_json());
+  document.add("fields", std::move(rows))
+      .add("units", results::shown_units_json())
+      .add("unit_names", results::unit_names_json());
   return document.text();
 }
 
@@ -146,20 +150,32 @@ class Explain final : public Verb {
     command().add_flag("--manual", manual_, "The reference manual of all keys, in Markdown");
     CLI::Option* of_fields =
         command().add_flag("--fields", fields_, "Fields of results instead of keys; KEY is one of them");
-    command().add_flag("--json", json_, "With --fields: for other programs")->needs(of_fields);
+    CLI::Option* of_tables =
+        command().add_flag("--tables", tables_,
+                           "Columns of the tables of a run instead of keys; KEY is a table, such as history");
+    CLI::Option* json = command().add_flag("--json", json_, "With --fields or --tables: for other programs");
     file_.add_options(command());
     CLI::Option* of_findings =
         command().add_flag("--findings", findings_,
                            "Findings of check instead of keys; KEY is what they are about, such as contacts");
-    of_findings->excludes(of_fields);
+    of_findings->excludes(of_fields)->excludes(of_tables)->excludes(json);
+    of_tables->excludes(of_fields);
     for (const char* other : {"--material", "--point"})
-      for (CLI::Option* option : {of_fields, of_findings}) option->excludes(command().get_option(other));
+      for (CLI::Option* option : {of_fields, of_findings, of_tables, json})
+        option->excludes(command().get_option(other));
   }
   ExitCode run() override {
     if (fields_)
       return explain_fields(key_, json_     ? ExplainedAs::json
                                   : manual_ ? ExplainedAs::manual
                                             : ExplainedAs::text);
+    if (tables_) {
+      print(json_                     ? results::tables_json().text()
+            : manual_ && key_.empty() ? page_of_tables()
+                                      : list_of_tables(key_));
+      return k_done;
+    }
+    if (json_) throw InputError({}, "--json is for fields and tables alone", "--fields or --tables");
     if (findings_) {
       print(manual_ && key_.empty() ? page_of_findings() : list_of_findings(key_));
       return k_done;
@@ -171,7 +187,7 @@ class Explain final : public Verb {
 
  private:
   std::string key_;
-  bool manual_ = false, fields_ = false, findings_ = false, json_ = false;
+  bool manual_ = false, fields_ = false, tables_ = false, findings_ = false, json_ = false;
   ChosenFile file_;
 };
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "coupling/columns.hpp"
 #include "criteria/quantities.hpp"
 #include "numbers/index_casts.hpp"
 #include "numbers/types.hpp"
@@ -16,52 +17,24 @@
 
 namespace solidus::results {
 
+namespace columns = coupling::columns;
+
 namespace {
+
+/// A member of summary.json that is called as a column of shots.csv.
+std::string member(const quantities::Column& column) {
+  return csv_column(column).header();
+}
 
 constexpr double k_not_solid = -1;
 
-std::vector<CsvColumn> shot_columns() {
-  return {{"time", "s"},
-          {"shot", "1"},
-          {"poured_at", "s"},
-          {"time_to_solidify", "s"},
-          {"die_at_start_mean", "degC"},
-          {"die_at_start_min", "degC"},
-          {"die_at_start_max", "degC"},
-          {"die_at_end_mean", "degC"},
-          {"die_at_end_min", "degC"},
-          {"die_at_end_max", "degC"},
-          {"largest_change", "K"},
-          {"heat_poured", "J"},
-          {"heat_ejected", "J"},
-          {"heat_corrected", "J"},
-          {"periodic", "1"}};
-}
-
 std::vector<double> numbers_of(const ShotRow& row) {
-  const coupling::ShotRecord& s = row.shot;
-  const auto celsius = [](double kelvin) { return kelvin - k_zero_celsius; };
-  // Numbers in the order of the columns above; temperatures in degrees Celsius, as a foundry reads
-  // them.
-  return {s.end,
-          static_cast<double>(s.number),
-          s.poured,
-          row.time_to_solidify.value_or(k_not_solid),
-          celsius(s.at_pour.mean),
-          celsius(s.at_pour.lowest),
-          celsius(s.at_pour.highest),
-          celsius(s.at_end.mean),
-          celsius(s.at_end.lowest),
-          celsius(s.at_end.highest),
-          s.change,
-          s.heat.poured,
-          s.heat.ejected,
-          s.heat.corrected,
-          s.periodic ? 1.0 : 0.0};
+  const coupling::ShotSource source{row.shot, row.time_to_solidify.value_or(k_not_solid)};
+  return row_of(coupling::shot_columns(), source);
 }
 
 /// The reverse of numbers_of(), for a table that a restart continues.
-ShotRow row_of(const std::vector<double>& n) {
+ShotRow shot_of(const std::vector<double>& n) {
   const auto kelvin = [](double celsius) { return celsius + k_zero_celsius; };
   ShotRow row;
   row.shot = {static_cast<int>(n[1]),
@@ -77,7 +50,8 @@ ShotRow row_of(const std::vector<double>& n) {
 }
 
 CsvTable make_table(const std::filesystem::path& path, std::optional<double> from) {
-  return from ? CsvTable(path, shot_columns(), *from) : CsvTable(path, shot_columns());
+  const std::vector<CsvColumn> head = head_of(coupling::shot_columns());
+  return from ? CsvTable(path, head, *from) : CsvTable(path, head);
 }
 
 Json temperature_json(const coupling::DieTemperature& die) {
@@ -124,7 +98,7 @@ ShotTable::ShotTable(const std::filesystem::path& path, std::optional<double> fr
     std::vector<double> numbers;
     for (std::istringstream cells(line); std::getline(cells, cell, ',');)
       numbers.push_back(std::strtod(cell.c_str(), nullptr));
-    if (numbers.size() == table_.columns().size()) rows_.push_back(row_of(numbers));
+    if (numbers.size() == table_.columns().size()) rows_.push_back(shot_of(numbers));
   }
 }
 
@@ -150,15 +124,17 @@ Json json(const std::vector<ShotRow>& rows) {
   for (const ShotRow& row : rows) {
     const coupling::ShotRecord& s = row.shot;
     Json json;
-    json.add("shot", s.number).add("poured_at[s]", s.poured).add("end[s]", s.end);
-    if (row.time_to_solidify) json.add("time_to_solidify[s]", *row.time_to_solidify);
+    json.add(std::string(columns::k_shot.name), s.number)
+        .add(member(columns::k_poured_at), s.poured)
+        .add("end[s]", s.end);
+    if (row.time_to_solidify) json.add(member(columns::k_time_to_solidify), *row.time_to_solidify);
     json.add("die_at_start", temperature_json(s.at_pour))
         .add("die_at_end", temperature_json(s.at_end))
-        .add("largest_change[K]", s.change)
-        .add("heat_poured[J]", s.heat.poured)
-        .add("heat_ejected[J]", s.heat.ejected)
-        .add("heat_corrected[J]", s.heat.corrected)
-        .add("periodic", s.periodic);
+        .add(member(columns::k_largest_change), s.change)
+        .add(member(columns::k_heat_poured), s.heat.poured)
+        .add(member(columns::k_heat_ejected), s.heat.ejected)
+        .add(member(columns::k_heat_corrected), s.heat.corrected)
+        .add(std::string(columns::k_periodic.name), s.periodic);
     all.push_back(std::move(json));
   }
   return Json(std::move(all));

@@ -8,9 +8,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "quantities/column.hpp"
 #include "results/output/output_file.hpp"
 
 namespace solidus::results {
@@ -22,10 +22,30 @@ struct CsvColumn {
   std::string header() const { return unit.empty() ? name : name + "[" + unit + "]"; }
 };
 
+/// @param of  what a column belongs to, whose name stands before its own; empty: the whole model
+inline CsvColumn csv_column(const quantities::Column& column, const std::string& of = {}) {
+  return {of + std::string(column.name), std::string(column.unit)};
+}
+
 /// A number of the run and the column that shows it.
 using Reading = std::pair<CsvColumn, double>;
 
-using CsvCell = std::variant<double, std::int64_t, std::string>;
+using CsvCell = quantities::Cell;
+
+/// The head of a table whose columns are declared (quantities/column.hpp).
+template <class Rows>
+std::vector<CsvColumn> head_of(const Rows& rows) {
+  std::vector<CsvColumn> head;
+  for (const auto& row : rows) head.push_back(csv_column(row.column));
+  return head;
+}
+/// A row of a table all of whose columns are numbers and in every run.
+template <class Rows, class Source>
+std::vector<double> row_of(const Rows& rows, const Source& source) {
+  std::vector<double> cells;
+  for (const auto& row : rows) cells.push_back(row.read(source));
+  return cells;
+}
 
 /// One process writes it. Every row is handed to the system when it is added, so a run that is killed leaves
 /// whole rows. Numbers are written with as few digits as give the same bits back.

@@ -6,9 +6,7 @@
 
 namespace solidus::results {
 
-namespace {
-
-Json unit_json(const quantities::ShownUnit& shown) {
+Json json(const quantities::ShownUnit& shown) {
   Json json;
   json.add("unit", std::string(shown.unit))
       .add("text", std::string(shown.text))
@@ -16,8 +14,6 @@ Json unit_json(const quantities::ShownUnit& shown) {
       .add("offset", shown.offset);
   return json;
 }
-
-}  // namespace
 
 Json json(const quantities::Quantity& q) {
   using quantities::name;
@@ -41,14 +37,24 @@ Json json(const quantities::Quantity& q) {
   text("answer", q.answer);
   if (q.threshold) json.add("threshold", *q.threshold);
   text("colours", name(q.colours));
-  json.add("compared", q.compared).add("pictured", q.pictured).add("shown", unit_json(q.shown()));
+  json.add("compared", q.compared).add("pictured", q.pictured).add("shown", results::json(q.shown()));
   return json;
 }
 
 Json shown_units_json() {
   Json json;
   for (const quantities::UnitRow& row : quantities::shown_units())
-    json.add(std::string(row.si), unit_json(row.shown));
+    json.add(std::string(row.si), results::json(row.shown));
+  return json;
+}
+
+Json unit_names_json() {
+  Json json;
+  for (const quantities::UnitName& row : quantities::unit_names()) {
+    Json one;
+    one.add("text", std::string(row.text)).add("measures", std::string(row.measures));
+    json.add(std::string(row.unit), std::move(one));
+  }
   return json;
 }
 

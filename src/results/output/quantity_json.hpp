@@ -18,5 +18,9 @@ Json json(const quantities::Quantity& quantity);
 /// Units that people read, by the SI unit: {"K": {"unit": "degC", "text": "°C", "factor": 1, "offset":
 /// -273.15}}.
 Json shown_units_json();
+/// {"unit": "degC", "text": "°C", "factor": 1, "offset": -273.15}.
+Json json(const quantities::ShownUnit& shown);
+/// Names of units by the unit: {"m2": {"text": "m²", "measures": "Area"}}.
+Json unit_names_json();
 
 }  // namespace solidus::results

@@ -7,6 +7,8 @@
 
 namespace solidus::results {
 
+inline constexpr std::size_t k_most_rows = 5000;  ///< of a table in a page
+
 struct TableColumn {
   std::string header;              ///< "T_center[degC]"
   std::vector<double> numbers;     ///< of a column of numbers

@@ -20,7 +20,9 @@
 #include "results/output/output_error.hpp"
 #include "results/output/quantity_json.hpp"
 #include "results/report/moments.hpp"
+#include "results/report/page_section.hpp"
 #include "results/report/report_table.hpp"
+#include "results/tables/all_tables.hpp"
 #include "system/errors.hpp"
 #include "system/input_file.hpp"
 
@@ -31,7 +33,6 @@ using results::Json;
 
 namespace {
 
-constexpr std::size_t k_most_rows = 5000;             ///< of a table
 constexpr std::uintmax_t k_most_filling = 8'000'000;  ///< bytes of the files of a filling
 
 std::string text_at(const Value& table, std::string_view section, std::string_view key) {
@@ -357,7 +358,11 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
     tables.add(name, table_data(table, blocks));
   }
   out.add("tables", std::move(tables));
-  out.add("quantities", all_quantities()).add("units", results::shown_units_json());
+  out.add("quantities", all_quantities())
+      .add("units", results::shown_units_json())
+      .add("unit_names", results::unit_names_json())
+      .add("declared", results::tables_json())
+      .add("sections", page_sections_json({folder, document}));
   add_fields(out, folder, body_materials(folder), options, most_bytes, blocks, own);
   Json::Array texts;
   for (const std::string& note : own) {

@@ -3,29 +3,15 @@
 
 #include <vector>
 
-#include "criteria/pools.hpp"
-#include "numbers/types.hpp"
+#include "criteria/columns.hpp"
 
 namespace solidus::results {
 
 namespace {
 
-std::vector<CsvColumn> pool_columns() {
-  return {{"time", "s"},
-          {"pool", "1"},
-          {"parent", "1"},
-          {"closed_off_since", "s"},
-          {"frozen_at", "s"},
-          {"volume", "m3"},
-          {"solid_fraction", "1"},
-          {"temperature", "degC"},
-          {"x", "m"},
-          {"y", "m"},
-          {"z", "m"}};
-}
-
 CsvTable make_table(const std::filesystem::path& path, std::optional<double> from) {
-  return from ? CsvTable(path, pool_columns(), *from) : CsvTable(path, pool_columns());
+  const std::vector<CsvColumn> head = head_of(criteria::pool_columns());
+  return from ? CsvTable(path, head, *from) : CsvTable(path, head);
 }
 
 }  // namespace
@@ -39,18 +25,8 @@ void PoolTable::add(const coupling::State& state) {
     // Pools that exist or have ended within the step.
     for (const criteria::Pool& pool : criteria::Pools::pools(record)) {
       if (!pool.present() && !pool.ended) continue;
-      const std::vector<double> row = {state.time,
-                                       static_cast<double>(pool.number),
-                                       static_cast<double>(pool.parent),
-                                       pool.closed_off,
-                                       pool.frozen,
-                                       pool.volume,
-                                       pool.solid_fraction,
-                                       pool.temperature - k_zero_celsius,
-                                       pool.where[0],
-                                       pool.where[1],
-                                       pool.where[2]};
-      table_.add(row);
+      const criteria::PoolSource source{state.time, pool};
+      table_.add(row_of(criteria::pool_columns(), source));
     }
   }
 }

@@ -367,7 +367,7 @@ TEST(GlobalHistory, ShowsWhereThePlasticWorkWent) {
 }
 
 TEST(GlobalHistory, LeavesOutWhatAProbeGivesUnderTheSameHeader) {
-  const GlobalHistory history({true, true, true, {{"solid_fraction", "1"}, {"T_min", "K"}}});
+  const GlobalHistory history({true, true, true}, {{"solid_fraction", "1"}, {"T_min", "K"}});
   EXPECT_EQ(history.columns().size(), history.values().size());
   EXPECT_EQ(history.columns().size(), GlobalHistory({true, true, true}).columns().size() - 1);
 }

@@ -110,7 +110,23 @@ export function place(x: ArrayLike<number>, dimension = 3): string {
   return `(${Array.from(x).slice(0, dimension).map(one).join(", ")}) mm`;
 }
 
+/** A unit of columns and answers, as the program names it: "m²", which measures an area. */
+export interface UnitName {
+  text: string;
+  measures: string;
+}
+const names = new Map<string, UnitName>();
+
+export function nameUnits(rows: Record<string, UnitName> = {}): void {
+  for (const [unit, name] of Object.entries(rows)) names.set(unit, name);
+}
+
 /** "degC" of the tables as "°C". */
 export function unitText(unit: string): string {
-  return unit === "degC" ? "°C" : unit === "1" ? "" : unit.replace("m2", "m²").replace("m3", "m³");
+  return names.get(unit)?.text ?? unit.replace("m2", "m²").replace("m3", "m³");
+}
+
+/** What a unit measures, as the title of a chart: "Temperature". */
+export function measureOf(unit: string): string {
+  return names.get(unit)?.measures ?? unitText(unit);
 }

@@ -1,6 +1,8 @@
 /** A run as the page holds it: meshes, fields over the written moments, tables. */
 import { blockJson, doubles, PackedValues, risingNumbers, smallNumbers, STEPS, Values } from "./blocks";
-import { declare, groupOf, labelOf, Quantity, ShownUnit, Unit, unitOf } from "./quantities";
+import { Declared, declareColumns } from "./columns";
+import { declare, groupOf, labelOf, nameUnits, Quantity, ShownUnit, Unit, UnitName, unitOf } from "./quantities";
+import type { ToldSection } from "./told";
 
 interface BodyMeta {
   name: string;
@@ -52,6 +54,9 @@ interface RunMeta {
   fields?: FieldMeta[];
   quantities: Quantity[];
   units: Record<string, ShownUnit>;
+  unit_names?: Record<string, UnitName>;
+  declared?: Declared;
+  sections?: ToldSection[];
   notes: string[];
 }
 interface PageMeta {
@@ -385,7 +390,11 @@ export class Page {
   constructor() {
     this.meta = blockJson("meta") as PageMeta;
     if (this.meta.format !== 1) throw new Error("the page is of another version of the viewer");
-    for (const r of this.meta.runs) declare(r.quantities, r.units);
+    for (const r of this.meta.runs) {
+      declare(r.quantities, r.units);
+      nameUnits(r.unit_names);
+      declareColumns(r.declared);
+    }
     this.runs = this.meta.runs.map((r) => new Run(r));
   }
 }
