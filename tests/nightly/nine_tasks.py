@@ -70,7 +70,8 @@ group = "lower_bottom"
 kind = "fixed"
 [[probe]]
 name = "inside"
-at = ["20 mm", "20 mm"]
+kind = "point"
+point = ["20 mm", "20 mm"]
 field = "temperature"
 unit = "degC"
 """
@@ -214,7 +215,7 @@ def tasks(tree):
         Task("change a default of solvers", in_line(tree, "src/linear/automatic_solver.hpp", *SOLVER), solver),
         Task("add a verb", copy("src/app/verbs/weigh.cpp", f"{laws}/weigh.cpp"), verb),
         Task("change a unit", replaced("src/quantities/shown_units.cpp", *UNIT), unit),
-        Task("add a section of the report", copy("src/app/sections/probe_section.cpp", f"{laws}/probe_section.cpp"), section),
+        Task("add a section of the report", copy("src/app/probe_section.cpp", f"{laws}/probe_section.cpp"), section),
         Task("add a column", replaced("src/coupling/history_columns.cpp", BEHIND, BEHIND + COLUMN), column),
     ]
 

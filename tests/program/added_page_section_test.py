@@ -36,15 +36,16 @@ material = "steel_mould"
 initial_temperature = "300 degC"
 [[thermal_condition]]
 name = "air"
-group = "right"
+group = "x_max"
 kind = "film"
 coefficient = "2000 W/m2/K"
-temperature = "20 degC"
+ambient = "20 degC"
 """
 PROBE = """
 [[probe]]
 name = "inside"
-at = ["2 mm", "5 mm"]
+kind = "point"
+point = ["2 mm", "5 mm"]
 field = "temperature"
 unit = "degC"
 """
