@@ -10,6 +10,12 @@ namespace {
 
 using quantities::Chart;
 
+/// The chart of a column that history.csv has too is one over time.
+constexpr Column without_chart(Column column) {
+  column.chart = Chart::of_unit;
+  return column;
+}
+
 constexpr auto of_all = [](const ShotRecord&) { return true; };
 
 constexpr auto k_shots = std::to_array<ShotColumn>({
@@ -59,9 +65,10 @@ constexpr auto k_shots = std::to_array<ShotColumn>({
      of_all,
      [](const ShotSource& s) { return s.shot.at_end.highest - k_zero_celsius; }},
     {columns::k_largest_change, of_all, [](const ShotSource& s) { return s.shot.change; }},
-    {columns::k_heat_poured, of_all, [](const ShotSource& s) { return s.shot.heat.poured; }},
-    {columns::k_heat_ejected, of_all, [](const ShotSource& s) { return s.shot.heat.ejected; }},
-    {columns::k_heat_corrected, of_all, [](const ShotSource& s) { return s.shot.heat.corrected; }},
+    {without_chart(columns::k_heat_poured), of_all, [](const ShotSource& s) { return s.shot.heat.poured; }},
+    {without_chart(columns::k_heat_ejected), of_all, [](const ShotSource& s) { return s.shot.heat.ejected; }},
+    {without_chart(columns::k_heat_corrected), of_all,
+     [](const ShotSource& s) { return s.shot.heat.corrected; }},
     {columns::k_periodic, of_all, [](const ShotSource& s) { return s.shot.periodic ? 1.0 : 0.0; }},
 });
 
