@@ -9,7 +9,6 @@
 #include "coupling/all_fields.hpp"
 #include "criteria/quantities.hpp"
 #include "input/units.hpp"
-#include "results/answers/answer_rows.hpp"
 #include "results/answers/answers.hpp"
 #include "results/answers/tearing_text.hpp"
 
@@ -406,8 +405,7 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
     for (const CastAnswer& cast : a.castings)
       if (cast.there) text += line(fmt::format("soundness of '{}'", cast.cast.name), soundness(cast, format));
   if (const std::optional<double> share = poured_share_of_parts(a))
-    text +=
-        line(answer::k_yield.column.label, fmt::format("{:.3g} % of what is poured is part", 100 * *share));
+    text += line("yield", fmt::format("{:.3g} % of what is poured is part", 100 * *share));
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
   // What was cast decides whether soundness is a question at all.
   if (!a.castings.empty())
@@ -432,12 +430,11 @@ std::string text(const Answers& a, const std::vector<criteria::CriterionResult>&
               format.length(overlap.gap.value), format.place(overlap.gap.where)));
   // Mechanics' own answers, then the numbers by which the user judges the run.
   if (a.distortion)
-    text += line(answer::k_largest_distortion.column.label,
+    text += line("largest distortion",
                  fmt::format("{} {}", format.length(*a.distortion), format.place(a.distortion->where)));
   if (a.stress)
-    text += line(answer::k_largest_von_mises.column.label,
-                 fmt::format("{} in '{}' {}", format.stress(*a.stress), a.stressed_body,
-                             format.place(a.stress->where)));
+    text += line("largest von Mises stress", fmt::format("{} in '{}' {}", format.stress(*a.stress),
+                                                         a.stressed_body, format.place(a.stress->where)));
   if (a.step_error)
     text += line("largest error of a fixed step",
                  fmt::format("some {} in the step to {:.4g} s (temperature_error in steps.csv)",
