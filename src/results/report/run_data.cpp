@@ -244,6 +244,14 @@ Json all_quantities() {
   return rows;
 }
 
+/// What the program says of fields, columns and units.
+void add_declarations(Json& out) {
+  out.add("quantities", all_quantities())
+      .add("units", results::shown_units_json())
+      .add("unit_names", results::unit_names_json())
+      .add("declared", results::tables_json());
+}
+
 void add_fields(Json& out, const fs::path& folder, const std::vector<BodyMaterial>& names,
                 const ReportOptions& options, std::size_t most_bytes, Blocks& blocks,
                 std::vector<std::string>& notes) {
@@ -358,11 +366,8 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
     tables.add(name, table_data(table, blocks));
   }
   out.add("tables", std::move(tables));
-  out.add("quantities", all_quantities())
-      .add("units", results::shown_units_json())
-      .add("unit_names", results::unit_names_json())
-      .add("declared", results::tables_json())
-      .add("sections", page_sections_json({folder, document}));
+  add_declarations(out);
+  out.add("sections", page_sections_json({folder, document}));
   add_fields(out, folder, body_materials(folder), options, most_bytes, blocks, own);
   Json::Array texts;
   for (const std::string& note : own) {
