@@ -369,12 +369,8 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   add_declarations(out);
   out.add("sections", page_sections_json({folder, document}));
   add_fields(out, folder, body_materials(folder), options, most_bytes, blocks, own);
-  Json::Array texts;
-  for (const std::string& note : own) {
-    texts.emplace_back(note);
-    notes.push_back(folder.string() + ": " + note);
-  }
-  out.add("notes", std::move(texts));
+  for (const std::string& note : own) notes.push_back(folder.string() + ": " + note);
+  out.add("notes", Json::Array(own.begin(), own.end()));
   return out;
 }
 
