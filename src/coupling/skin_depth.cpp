@@ -1,6 +1,6 @@
-/// Points of the isotherm are found on the edges of elements near the surface and handed from node to node,
-/// each of which keeps the nearest. A pass reads what the pass before has left, so that the result depends
-/// neither on the order of elements nor on the number of processes.
+/// Points of the isotherm are found between the nodes of elements near the surface and handed from node to
+/// node, each of which keeps the nearest. A pass reads what the pass before has left, so that the result
+/// depends neither on the order of elements nor on the number of processes.
 #include "coupling/skin_depth.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double k_far = std::numeric_limits<double>::infinity();
 
-/// Elements all of whose edges are as many least thicknesses long are coherent later than their shells are
-/// that thick.
+/// Elements are left out if all of their edges are at least this many least thicknesses long: as a rule their
+/// shells are that thick before they are coherent.
 constexpr double k_coarse = 4;
 
 double distance(const mesh::Point& a, const mesh::Point& b) {
@@ -51,11 +51,11 @@ SkinDepth::SkinDepth(const mesh::Mesh& mesh, std::span<const std::string> surfac
   on_surface_.assign(nodes_.size(), 1);
   for (const Index node : nodes_) length_.push_back(of_node[as_size(node)]);
   find_cells(melts, length);
-  any_ = parallel::any_process(!cells_.empty());
+  any_ = parallel::any_process(!cell_ends_.empty());
 }
 
 void SkinDepth::find_cells(std::span<const char> melts, std::span<const double> length) {
-  // Every node learns of a node of the surface that is near: layer by layer, from the vertex of an element
+  // Every node learns of a node of the surface that is near: layer by layer, from the node of an element
   // that knows the nearest one.
   std::vector<Nearest> from(mesh_.x.size(), {k_far, {0, 0, 0}});
   for (const Index node : nodes_) from[as_size(node)] = {0, mesh_.x[as_size(node)]};
@@ -64,20 +64,21 @@ void SkinDepth::find_cells(std::span<const char> melts, std::span<const double> 
       const mesh::ElementBlock& block = mesh_.blocks[b];
       const double reach = length[as_size(block.body)];
       if (melts[b] == 0 || !(reach > 0)) continue;
-      const auto n = as_size(mesh::vertex_count(block.shape));
+      const std::size_t n = block.nodes.empty() ? 0 : block.nodes.size() / as_size(block.size());
       for (Index e = 0; e < block.size(); ++e) {
-        const std::span<const Index> vertices(block.element(e), n);
+        const std::span<const Index> nodes(block.element(e), n);
         const Index nearest = *std::ranges::min_element(
-            vertices, {}, [&](const Index node) { return from[as_size(node)].distance; });
-        if (from[as_size(nearest)].distance < reach) visit(vertices, from[as_size(nearest)].point, reach);
+            nodes, {}, [&](const Index node) { return from[as_size(node)].distance; });
+        if (from[as_size(nearest)].distance < reach)
+          visit(nodes, as_size(mesh::vertex_count(block.shape)), from[as_size(nearest)].point, reach);
       }
     }
   };
   for (bool more = true; parallel::any_process(more);) {
     more = false;
     std::vector<Nearest> next = from;
-    each_element([&](std::span<const Index> vertices, const mesh::Point& point, double) {
-      for (const Index node : vertices) {
+    each_element([&](std::span<const Index> nodes, std::size_t, const mesh::Point& point, double) {
+      for (const Index node : nodes) {
         const double d = distance(mesh_.x[as_size(node)], point);
         if (!(d < next[as_size(node)].distance)) continue;
         next[as_size(node)] = {d, point};
@@ -94,24 +95,23 @@ void SkinDepth::find_cells(std::span<const char> melts, std::span<const double> 
           return false;
     return true;
   };
-  // Elements with a vertex nearer than ℓ, whose other vertices get numbers behind those of the surfaces.
+  // Elements with a node nearer than ℓ, whose other nodes get numbers behind those of the surfaces.
   constexpr Index k_none = -1;
   std::vector<Index> number(mesh_.x.size(), k_none);
   for (std::size_t k = 0; k < nodes_.size(); ++k) number[as_size(nodes_[k])] = as_index(k);
-  each_element([&](std::span<const Index> vertices, const mesh::Point&, double reach) {
-    if (is_coarse(vertices, reach)) return;
-    Cell cell{.vertices = {}, .n_vertices = static_cast<int>(vertices.size())};
-    for (std::size_t a = 0; a < vertices.size(); ++a) {
-      Index& k = number[as_size(vertices[a])];
+  each_element([&](std::span<const Index> nodes, std::size_t n_vertices, const mesh::Point&, double reach) {
+    if (is_coarse(nodes.first(n_vertices), reach)) return;
+    for (const Index node : nodes) {
+      Index& k = number[as_size(node)];
       if (k == k_none) {
         k = as_index(nodes_.size());
-        nodes_.push_back(vertices[a]);
+        nodes_.push_back(node);
         length_.push_back(reach);
         on_surface_.push_back(0);
       }
-      cell.vertices[a] = k;
+      cell_nodes_.push_back(k);
     }
-    cells_.push_back(cell);
+    cell_ends_.push_back(cell_nodes_.size());
   });
 }
 
@@ -141,12 +141,15 @@ void SkinDepth::exchange(std::span<const Index> nodes, std::vector<Nearest>& nea
 void SkinDepth::spread(std::vector<Nearest>& nearest) const {
   std::vector<Nearest> next = nearest;
   for (bool more = true; more;) {
-    for (const Cell& cell : cells_)
-      for (int a = 0; a < cell.n_vertices; ++a)
-        for (int b = 0; b < cell.n_vertices; ++b) {
-          const Nearest& of_other = nearest[as_size(cell.vertices[as_size(b)])];
-          if (a != b && of_other.distance < k_far) offer(cell.vertices[as_size(a)], of_other.point, next);
-        }
+    for (std::size_t e = 0; e < cell_ends_.size(); ++e) {
+      const std::span<const Index> nodes = nodes_of(e);
+      for (const Index other : nodes) {
+        const Nearest& of_other = nearest[as_size(other)];
+        if (!(of_other.distance < k_far)) continue;
+        for (const Index node : nodes)
+          if (node != other) offer(node, of_other.point, next);
+      }
+    }
     exchange(nodes_, next);
     bool changed = false;
     for (std::size_t k = 0; k < next.size(); ++k) changed = changed || next[k].point != nearest[k].point;
@@ -157,21 +160,21 @@ void SkinDepth::spread(std::vector<Nearest>& nearest) const {
 
 void SkinDepth::limit(std::span<const double> of_nodes, std::span<double> coherency) const {
   if (!any_) return;
-  // Where metal is coherent at one end of an edge and melt at the other, the isotherm crosses it.
+  // Where metal is coherent at one node of an element and melt at another, the isotherm lies between them.
   std::vector<Nearest> nearest(nodes_.size(), {k_far, {0, 0, 0}});
-  for (const Cell& cell : cells_)
-    for (int a = 0; a < cell.n_vertices; ++a)
-      for (int b = 0; b < a; ++b) {
-        const Index i = cell.vertices[as_size(a)], j = cell.vertices[as_size(b)];
-        const auto at_i = as_size(nodes_[as_size(i)]), at_j = as_size(nodes_[as_size(j)]);
-        if ((of_nodes[at_i] >= 1) == (of_nodes[at_j] >= 1)) continue;
-        const double t = (1 - of_nodes[at_i]) / (of_nodes[at_j] - of_nodes[at_i]);
+  for (std::size_t e = 0; e < cell_ends_.size(); ++e) {
+    const std::span<const Index> nodes = nodes_of(e);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) {
+        const auto i = as_size(nodes_[as_size(nodes[a])]), j = as_size(nodes_[as_size(nodes[b])]);
+        if ((of_nodes[i] >= 1) == (of_nodes[j] >= 1)) continue;
+        const double t = (1 - of_nodes[i]) / (of_nodes[j] - of_nodes[i]);
         mesh::Point point;
-        for (std::size_t c = 0; c < point.size(); ++c)
-          point[c] = std::lerp(mesh_.x[at_i][c], mesh_.x[at_j][c], t);
-        offer(i, point, nearest);
-        offer(j, point, nearest);
+        for (std::size_t c = 0; c < point.size(); ++c) point[c] = std::lerp(mesh_.x[i][c], mesh_.x[j][c], t);
+        offer(nodes[a], point, nearest);
+        offer(nodes[b], point, nearest);
       }
+  }
   exchange(nodes_, nearest);
   spread(nearest);
   for (std::size_t k = 0; k < nodes_.size(); ++k)

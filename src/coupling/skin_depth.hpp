@@ -4,15 +4,16 @@
 /// shell is about half an element thick (coupling/coherency.hpp), so that by them alone thinner elements let
 /// go earlier, and the time to freeze has no limit with the mesh. Therefore the shell has a least thickness
 /// too, a length of the casting: k_shell_depth times its section V/A. The thickness at a node of the surface
-/// is its distance d from the isotherm of the coherency fraction, which crosses edges between their nodes:
+/// is its distance d from the isotherm of the coherency fraction, found between the nodes of elements:
 ///
 ///   c = min(c_elements, d/ℓ)
 ///
-/// Elements with edges of 4 ℓ and more reach this thickness before they are coherent; they are left out.
+/// Elements with edges of 4 ℓ and more reach this thickness before they are coherent as a rule; they are left
+/// out.
 /// Figures: docs/theory/step_and_mesh.md.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,16 +43,15 @@ class SkinDepth {
   void limit(std::span<const double> of_nodes, std::span<double> coherency) const;
 
  private:
-  /// The vertices of an element near a surface, numbers in nodes_.
-  struct Cell {
-    std::array<Index, 8> vertices;
-    int n_vertices;
-  };
   /// The nearest known point of the isotherm.
   struct Nearest {
     double distance;
     mesh::Point point;
   };
+  std::span<const Index> nodes_of(std::size_t element) const {
+    const std::size_t first = element == 0 ? 0 : cell_ends_[element - 1];
+    return std::span(cell_nodes_).subspan(first, cell_ends_[element] - first);
+  }
   void find_cells(std::span<const char> melts, std::span<const double> length);
   void offer(Index node, const mesh::Point& point, std::vector<Nearest>& nearest) const;
   /// Hands points from node to node within an element until no node knows a nearer one.
@@ -61,11 +61,12 @@ class SkinDepth {
   void exchange(std::span<const Index> nodes, std::vector<Nearest>& nearest) const;
 
   const mesh::Mesh& mesh_;
-  std::vector<Index> nodes_;      ///< near the surfaces, local numbers
-  std::vector<double> length_;    ///< ℓ of their body, [nodes_]
-  std::vector<char> on_surface_;  ///< [nodes_]
-  std::vector<Cell> cells_;
-  bool has_ghosts_;  ///< on any process
+  std::vector<Index> nodes_;            ///< near the surfaces, local numbers
+  std::vector<double> length_;          ///< ℓ of their body, [nodes_]
+  std::vector<char> on_surface_;        ///< [nodes_]
+  std::vector<Index> cell_nodes_;       ///< of all elements near a surface, numbers in nodes_
+  std::vector<std::size_t> cell_ends_;  ///< [element]: behind its last node in cell_nodes_
+  bool has_ghosts_;                     ///< on any process
   bool any_ = false;
 };
 

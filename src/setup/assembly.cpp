@@ -144,7 +144,7 @@ void build_mechanics(const cases::CaseSpec& spec, const std::vector<double>& ini
     for (const std::string& surface : {pair->parts().spec.slave, pair->parts().spec.master})
       if (surface != pair->parts().spec.master || !pair->parts().spec.rigid_master)
         in_contact.push_back(surface);
-  // What grows has another mesh in each step; there elements alone decide.
+  // Bodies that grow have another mesh in each step; their elements alone decide how coherent a wall is.
   if (!a.growth) {
     std::vector<double> shell = sections_of(spec, a.mesh);
     for (double& length : shell) length *= coupling::k_shell_depth;

@@ -26,10 +26,13 @@ class ExpectedSteps(ProgramTest):
 class StatedErrors(ProgramTest):
     # Two of the castings of the nightly run.
     def test_cover_the_errors_of_castings(self):
-        # The iron's graphite closes every pore, so that it has no such answer.
-        for name, answers in (("nodular_iron_sand", 4), ("alsi10mg_die", 5)):
+        for name in ("nodular_iron_sand", "alsi10mg_die"):
             found = list(castings.stated(PROGRAM, self.folder, name))
-            self.assertEqual(len(found), answers, name)
+            # The iron's graphite closes its pores; whether a trace is left depends on the last digits.
+            of_all = {"solid after", "largest gap", "largest distortion", "largest von Mises"}
+            self.assertLessEqual(of_all, {answer for answer, *_ in found}, name)
+            if name == "alsi10mg_die":
+                self.assertIn("pores", {answer for answer, *_ in found})
             for answer, value, stated, error in found:
                 with self.subTest(casting=name, answer=answer, value=value):
                     self.assertGreaterEqual(stated, error)

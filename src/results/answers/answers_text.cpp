@@ -39,7 +39,7 @@ std::string digits(double value, int number) {
 std::string with_error(double value, const std::optional<ErrorBand>& error, double factor,
                        const std::string& unit) {
   const std::string space = unit.empty() ? "" : " ";
-  // What is less than a thousandth of its error is told as zero.
+  // A value of less than a thousandth of its error is printed as zero, for none of its digits is known.
   if (error && 1000 * std::abs(value) < error->total()) value = 0;
   if (!error || !(error->total() > 0)) return digits(value * factor, 4) + space + unit;
   return fmt::format("{} ± {}{}{} (step {}, mesh {})", digits(value * factor, 4),

@@ -1,4 +1,4 @@
-/// What answers say of tearing tendencies besides their value.
+/// Texts of the answers about tearing tendencies: a value that is cut, and the share by shrinkage alone.
 #pragma once
 
 #include <span>
