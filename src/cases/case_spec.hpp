@@ -137,6 +137,7 @@ struct MeshSpec {
   std::optional<std::string> shape, file;   ///< exactly one of them
   std::string unit;                         ///< length unit of the file, "mm"
   std::optional<double> element_size;       ///< for files that are meshed here (.geo, STEP) [m]
+  double size_factor = 1;                   ///< on all element sizes of such a file
   int order = 1;                            ///< of the elements, for files that are meshed here
   std::vector<MeshConstantSpec> constants;  ///< for .geo scripts
   std::vector<MeshGroupSpec> groups;        ///< of files that are meshed here

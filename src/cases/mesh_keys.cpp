@@ -264,6 +264,12 @@ Section<MeshSpec> mesh_keys() {
   s.quantity("element_size", &MeshSpec::element_size, "m")
       .positive()
       .doc("Element size for files that hold a geometry (.geo, STEP); without it that of the file.");
+  s.key("size_factor", &MeshSpec::size_factor)
+      .initially(1.0)
+      .positive()
+      .doc(
+          "Factor on all element sizes of a file that holds a geometry, those in a .geo script included; "
+          "numbers of elements that a script sets (transfinite lines, layers) stay.");
   s.key("order", &MeshSpec::order)
       .initially(1)
       .range(1, 2)

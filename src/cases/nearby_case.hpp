@@ -21,7 +21,8 @@ struct NearbyCase {
 NearbyCase longer_steps(const CaseSpec& spec, double displacement_error);
 
 /// The same with larger elements: twice as large in two dimensions, half as large again in three. There is
-/// none where the mesh is a file that was meshed elsewhere, or whose sizes the case does not give.
-NearbyCase coarser_mesh(const CaseSpec& spec);
+/// none where the mesh is a file that was meshed elsewhere.
+/// @param from_geometry  the program meshes the file of the case, a geometry
+NearbyCase coarser_mesh(const CaseSpec& spec, bool from_geometry);
 
 }  // namespace solidus::cases

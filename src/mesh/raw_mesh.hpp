@@ -65,6 +65,7 @@ struct MeshSource {
   /// Run a script without checks, and the options file next to a mesh: it can do whatever a program can do.
   /// Else a script may only make geometry (mesh/files/gmsh_script.hpp).
   bool trust_script = false;
+  double size_factor = 1;  ///< on all element sizes of a file that Gmsh meshes
 };
 
 /// Reads a mesh, or makes one of a geometry (mesh/files/file_format.hpp lists the formats). Rank 0 only.

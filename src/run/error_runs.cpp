@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cases/nearby_case.hpp"
+#include "mesh/files/file_format.hpp"
 #include "results/answers/answer_comparison.hpp"
 #include "results/output/output_error.hpp"
 #include "results/progress.hpp"
@@ -63,6 +64,11 @@ double ratio(results::ErrorPart part, AnalysisKind kind, const results::Summary&
   return std::pow(elements, 1.0 / (kind == AnalysisKind::solid ? 3.0 : 2.0));
 }
 
+/// Whether the mesh is made from a geometry.
+bool is_drawn(const cases::MeshSpec& m) {
+  return m.file && mesh::is_geometry(mesh::file_format(*m.file).holds);
+}
+
 /// The summary of a further run, or why there is none.
 struct Beside {
   std::optional<results::Summary> summary;
@@ -95,10 +101,10 @@ ErrorRuns run_beside(const setup::Case& c, results::Summary summary, double disp
   ErrorRuns made{std::move(summary), true};
   // Two further runs, with longer steps and with larger elements, tell by how much its answers
   // are off. A comparison that cannot be made leaves the estimate, and says why.
-  const Wanted wanted[] = {
-      {results::ErrorPart::step, "longer steps", "longer_steps",
-       cases::longer_steps(c.spec, displacement_error)},
-      {results::ErrorPart::mesh, "larger elements", "larger_elements", cases::coarser_mesh(c.spec)}};
+  const Wanted wanted[] = {{results::ErrorPart::step, "longer steps", "longer_steps",
+                            cases::longer_steps(c.spec, displacement_error)},
+                           {results::ErrorPart::mesh, "larger elements", "larger_elements",
+                            cases::coarser_mesh(c.spec, is_drawn(c.spec.mesh))}};
   for (const Wanted& comparison : wanted) {
     const auto leave = [&](const std::string& why) {
       made.complete = false;

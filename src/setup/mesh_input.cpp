@@ -172,6 +172,7 @@ mesh::RawMesh make_raw_mesh(cases::CaseSpec& spec, std::vector<FoundInterface>& 
       source.constants[constant.name] = constant.value;
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;
+    source.size_factor = m.size_factor;
     result = m.sizes.empty() && !m.mould && m.risers.empty() && m.chills.empty() && !m.symmetry
                  ? mesh::read_mesh(source)
                  : mesh::mesh_casting(source, casting_geometry(m));

@@ -115,6 +115,11 @@ void check_casting(const cases::MeshSpec& m) {
                     "make sizes and shared faces themselves",
                     m.element_size ? "element_size" : "conforming"),
         "[[mesh.size]] for each body");
+  if (m.size_factor != 1 && (of_casting(m) || m.shape))
+    throw InputError(m.where,
+                     m.shape ? "'size_factor' is for files, and the mesh is a built-in shape"
+                             : "'size_factor' together with sizes of [mesh], which it does not change",
+                     m.shape ? "sizes or divisions of the shape" : "[[mesh.size]] for each body");
   // Risers and chills are checked by the rules that a file of feeders obeys too.
   cases::check_feeders(m.risers, m.chills);
 }

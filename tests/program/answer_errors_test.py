@@ -11,6 +11,31 @@ from summary_test import CASE, GEOMETRY
 
 
 
+BAR = """
+title = "Bar"
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+file = "bar.inp"
+unit = "mm"
+[time]
+end = "40 s"
+step = "5 s"
+[[body]]
+name = "bar"
+role = "casting"
+material = "aluminium_alsi7mg"
+initial_temperature = "700 degC"
+[[thermal_condition]]
+name = "end"
+group = "end"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+"""
+
+
 class ExpectedSteps(ProgramTest):
     # In a die temperatures make most steps, in sand the skin that lets go and the last melt.
     def test_of_castings_that_deform_are_right_within_two(self):
@@ -76,13 +101,37 @@ class Sure(ProgramTest):
         self.assertAlmostEqual(froze["error_of_step[s]"], max(of_step, estimate_of_step / 2), delta=0.01 * estimate_of_step)
         self.assertAlmostEqual(froze["error_of_mesh[s]"], max(of_mesh, estimate_of_mesh / 2), delta=0.05 * estimate_of_mesh)
 
-    def test_says_what_it_cannot_compare(self):
+    def test_makes_a_coarser_mesh_of_a_script(self):
         self.write("plate.geo", GEOMETRY)
         self.write("case.toml", CASE.format(end=40, feeders="top"))
         told = self.done("run", "case.toml", "--sure", "--no-progress", "-o", "out")
-        self.assertIn("no comparison with larger elements: the sizes of the elements of", told)
-        self.assertIn("the estimate is kept", told)
+        self.assertRegex(told, r"compared with larger elements, a factor of [12]\.\d+")
         self.assertIn("compared with longer steps, a factor of 2", told)
+        coarse, given = (sum(self.summary(self.folder / folder)["mesh"]["bodies"].values())
+                         for folder in ("out/sure/larger_elements", "out"))
+        self.assertLess(coarse, given / 2)
+
+    def test_says_what_it_cannot_compare(self):
+        # A bar of ten squares of 4 mm that cools at one end.
+        nodes = "\n".join(f"{1 + i + 11 * j}, {4 * i}, {4 * j}" for j in range(2) for i in range(11))
+        squares = "\n".join(f"{i}, {i}, {i + 1}, {i + 12}, {i + 11}" for i in range(1, 11))
+        self.write("bar.inp", f"*NODE\n{nodes}\n*ELEMENT, TYPE=CPE4, ELSET=bar\n{squares}\n*SURFACE, NAME=end, TYPE=ELEMENT\n1, S4\n")
+        self.write("case.toml", BAR)
+        told = self.done("run", "case.toml", "--sure", "--no-progress", "-o", "out")
+        self.assertRegex(told, "no comparison with larger elements: '.*bar.inp' holds a mesh, .*; the estimate is kept")
+        self.assertIn("compared with longer steps, a factor of 2", told)
+
+    def test_a_factor_on_sizes_is_refused_where_it_would_change_none(self):
+        self.write("bar.inp", "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPE3, ELSET=bar\n1, 1, 2, 3\n")
+        self.write("case.toml", BAR.replace('unit = "mm"', 'unit = "mm"\nsize_factor = 2'))
+        self.assertIn("the file holds a mesh, whose elements have their sizes", self.refused("case.toml"))
+        self.casting()
+        self.assertIn("the mesh is a built-in shape", self.refused("casting/case", "--set", "mesh.size_factor=2"))
+
+    def refused(self, *arguments):
+        done = solidus("check", *arguments, cwd=self.folder)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        return done.stderr
 
     def test_of_a_steady_case_is_refused(self):
         folder = self.casting()

@@ -40,6 +40,9 @@ void check_choices(const MeshSource& source, const FileFormat& format) {
   if (!source.geometry.groups.empty() && !is_geometry(format.holds))
     throw InputError({path}, "the file holds a mesh, whose groups are its own",
                      "a STEP, BREP, IGES or .geo file");
+  if (source.size_factor != 1 && !is_geometry(format.holds))
+    throw InputError({path}, "the file holds a mesh, whose elements have their sizes ('mesh.size_factor')",
+                     "a STEP, BREP, IGES or .geo file");
   if (source.geometry.conforming && !shapes)
     throw InputError({path}, "'conforming' is for geometries of CAD programs", "a STEP, BREP or IGES file");
   // Files that can do more than describe geometry are checked before Gmsh sees them.

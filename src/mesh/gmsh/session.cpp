@@ -185,10 +185,10 @@ MeshingOutlook outlook_of(const MeshSource& source, FileHolds holds) {
       occ::getMass(surface, std::abs(number), one);
       area += one;
     }
-    const double size = source.element_size / unit;
+    const double size = source.size_factor * source.element_size / unit;
     o.nodes += expected_nodes({{area, size}}, volume, size, 0);
   }
-  if (o.nodes > 0) o.smallest = o.largest = source.element_size;
+  if (o.nodes > 0) o.smallest = o.largest = source.size_factor * source.element_size;
   if (source.element_order == 2) o.nodes *= k_nodes_of_second_order;
   return o;
 }
@@ -219,8 +219,14 @@ std::optional<Point> centre_of_solids(double unit) {
   return moment;
 }
 
-void generate(const std::string& path, double size, int element_order) {
+void generate(const std::string& path, double size, double size_factor, int element_order) {
   try {
+    // A script may have set a factor of its own.
+    if (size_factor != 1) {
+      double of_script = 1;
+      gmsh::option::getNumber("Mesh.MeshSizeFactor", of_script);
+      gmsh::option::setNumber("Mesh.MeshSizeFactor", of_script * size_factor);
+    }
     if (size > 0) {
       gmsh::option::setNumber("Mesh.MeshSizeMax", size);
       gmsh::option::setNumber("Mesh.MeshSizeMin",
@@ -422,7 +428,7 @@ RawMesh read_with_gmsh(const MeshSource& source, FileHolds holds, const CastingG
       tell_outlook(outlook_of(source, holds));
     } catch (const std::string&) {  // NOLINT: a geometry that cannot be measured can perhaps be meshed
     }
-    generate(path, source.element_size / source.unit_in_metres, source.element_order);
+    generate(path, source.element_size / source.unit_in_metres, source.size_factor, source.element_order);
   }
   RawMesh mesh = mesh_of_session(source, casting != nullptr || is_geometry(holds));
   if (holds == FileHolds::script)

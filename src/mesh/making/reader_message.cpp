@@ -148,6 +148,7 @@ void put_source(const MeshSource& source, const PutBytes& put) {
   put_number(source.geometry.groups.size(), put);
   for (const GeometryGroup& group : source.geometry.groups) put_group_choice(group, put);
   put_number(source.trust_script, put);
+  put_number(source.size_factor, put);
 }
 
 MeshSource take_source(const TakeBytes& take) {
@@ -164,6 +165,7 @@ MeshSource take_source(const TakeBytes& take) {
   for (auto n = take_number<std::size_t>(take); n > 0; --n)
     source.geometry.groups.push_back(take_group_choice(take));
   source.trust_script = take_number<bool>(take);
+  source.size_factor = take_number<double>(take);
   return source;
 }
 

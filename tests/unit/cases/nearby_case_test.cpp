@@ -88,7 +88,8 @@ TEST(LongerSteps, HaveNoMeaningWithoutTime) {
 
 TEST(CoarserMesh, HasHalfTheDivisions) {
   const Value given = document(k_block, k_fixed);
-  EXPECT_THAT(beside(given, coarser_mesh(case_keys().read(given))).mesh.block->divisions, ElementsAre(3, 1));
+  EXPECT_THAT(beside(given, coarser_mesh(case_keys().read(given), false)).mesh.block->divisions,
+              ElementsAre(3, 1));
 }
 
 TEST(CoarserMesh, HasLargerElementsWhereTheCaseSaysHowLarge) {
@@ -97,16 +98,21 @@ TEST(CoarserMesh, HasLargerElementsWhereTheCaseSaysHowLarge) {
       "smallest = \"2 mm\"\nacross = 2.0\n[[mesh.layers]]\nname = \"sand\"\nsurface = \"s\"\n"
       "body = \"part\"\nfirst = \"1 mm\"\n",
       k_fixed);
-  const CaseSpec made = beside(given, coarser_mesh(case_keys().read(given)));
+  const CaseSpec made = beside(given, coarser_mesh(case_keys().read(given), true));
   EXPECT_DOUBLE_EQ(made.mesh.sizes[0].size, 8e-3);
   EXPECT_DOUBLE_EQ(*made.mesh.sizes[0].smallest, 4e-3);
   EXPECT_DOUBLE_EQ(made.mesh.sizes[0].across, 1);
   EXPECT_DOUBLE_EQ(*made.mesh.layers[0].first, 2e-3);
 }
 
-TEST(CoarserMesh, CannotBeMadeOfAMeshWhoseSizesAreNotGiven) {
+TEST(CoarserMesh, OfAGeometryHasAFactorOnTheSizesThatItGivesItself) {
+  const Value plane = document("[mesh]\nfile = \"part.geo\"\nsize_factor = 0.5\n", k_fixed);
+  EXPECT_DOUBLE_EQ(beside(plane, coarser_mesh(case_keys().read(plane), true)).mesh.size_factor, 1);
+}
+
+TEST(CoarserMesh, CannotBeMadeOfAMesh) {
   const Value given = document("[mesh]\nfile = \"part.inp\"\n", k_fixed);
-  EXPECT_THAT(coarser_mesh(case_keys().read(given)).why_not, HasSubstr("'part.inp' are not in the case"));
+  EXPECT_THAT(coarser_mesh(case_keys().read(given), false).why_not, HasSubstr("mesh.refine = 1"));
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ TEST(ReaderMessage, ARequestArrivesAsItWas) {
                             {"top", false, {}, "lid", {}},
                             {"side", false, {}, "", std::array<Point, 2>{Point{0, 0, 0}, Point{1, 2, 3}}}};
   source.trust_script = true;
+  source.size_factor = 1.5;
   Pipe pipe;
   put_source(source, pipe.put);
   const MeshSource back = take_source(pipe.take);
@@ -50,6 +51,7 @@ TEST(ReaderMessage, ARequestArrivesAsItWas) {
   EXPECT_EQ(back.element_size, source.element_size);
   EXPECT_EQ(back.element_order, source.element_order);
   EXPECT_EQ(back.constants, source.constants);
+  EXPECT_EQ(back.size_factor, source.size_factor);
   EXPECT_TRUE(back.geometry.conforming);
   ASSERT_EQ(back.geometry.groups.size(), 3u);
   EXPECT_EQ(back.geometry.groups[0].numbers, source.geometry.groups[0].numbers);
