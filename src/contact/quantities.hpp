@@ -27,6 +27,7 @@ inline constexpr Quantity k_gap{.name = "gap",
                                 .place = quantities::Place::contact,
                                 .needs = {},
                                 .worst = quantities::Extreme::greatest,
+                                .headline = "Largest gap",
                                 .compared = true,
                                 .pictured = true};
 

@@ -255,6 +255,7 @@ inline constexpr Quantity k_distortion{
     .needs = {.mechanics = true},
     .kept = quantities::Kept::last,
     .worst = quantities::Extreme::greatest,
+    .headline = "Largest distortion",
     .compared = true,
     .pictured = true};
 

@@ -156,7 +156,46 @@ uz = "0 mm"
 `).join("");
 writeFileSync(join(folder, "pores.toml"), box);
 
-for (const [name, ...set] of [["block"], ["ring"], ["pores"]]) {
+const pot = `title = "A pot in its die"
+[analysis]
+kind = "axisymmetric"
+physics = "thermomechanical"
+[mesh]
+shape = "cylinder_in_mould"
+[mesh.cylinder_in_mould]
+radius = "15 mm"
+height = "30 mm"
+mould_wall = "15 mm"
+mould_bottom = "15 mm"
+mould_height = "45 mm"
+element_size = "5 mm"
+mould_element_size = "8 mm"
+[time]
+until = "solid"
+end = "100 s"
+step = "0.5 s"
+adaptive = true
+[[body]]
+name = "part"
+role = "casting"
+material = "aluminium_alsi7mg"
+initial_temperature = "680 degC"
+[[body]]
+name = "mould"
+role = "mould"
+material = "h13_tool_steel"
+initial_temperature = "200 degC"
+[[interface]]
+bodies = "all"
+[[mechanical_condition]]
+name = "floor"
+group = "mould_bottom"
+kind = "displacement"
+uz = "0 mm"
+`;
+writeFileSync(join(folder, "pot.toml"), pot);
+
+for (const [name, ...set] of [["block"], ["ring"], ["pores"], ["pot"]]) {
   const run = solidus("run", `${name}.toml`, "-o", name, "--no-progress", ...set);
   if (run.code !== 0) console.log(run.text);
   check(`the run '${name}' ends well`, run.code === 0, run.text.slice(-400));
@@ -319,6 +358,17 @@ try {
   await ring.run(`(() => { ${bench}.setField('displacement'); })()`);
   await ring.settle();
   check("without a word on the console", ring.messages.length === 0, ring.messages);
+
+  // A casting in its die: gap and distortion of the answers are figures.
+  const die = await browser.page(1000, 800);
+  await die.go(`file://${join(folder, "pot/report.html")}`);
+  const told = JSON.parse(readFileSync(join(folder, "pot/summary.json"))).answers;
+  const largest = { "Largest gap": Math.max(...Object.values(told.largest_gaps).map((gap) => gap["value[m]"])), "Largest distortion": told.largest_distortion["value[m]"] };
+  for (const [label, metres] of Object.entries(largest)) {
+    const text = await die.run(`[...document.querySelectorAll('.figure')].find((b) => b.firstChild.textContent === '${label}')?.querySelector('b').textContent ?? ''`);
+    const scale = text.endsWith("mm") ? 1e3 : text.endsWith("µm") ? 1e6 : 1;
+    check(`a figure says the ${label.toLowerCase()}`, Math.abs(parseFloat(text) - scale * metres) < 1e-3 * scale * metres, [text, metres]);
+  }
 
   // Pores: a card that flies to the densest, a field in shares of the volume.
   const pores = await browser.page(1000, 800);

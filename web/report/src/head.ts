@@ -62,6 +62,16 @@ function worstOfParts(run: Run, of: Quantity): { value: number; answer: Answer }
   return told.length ? told.reduce((a, b) => (sign * b.value < sign * a.value ? b : a)) : undefined;
 }
 
+/** The worst of what the answers say of a quantity for the whole run, of all contacts where they say it of each. */
+function worstOfWhole(run: Run, of: Quantity): { found: { value: number; at?: number[] }; answer: Answer } | undefined {
+  const { answer: key } = worst(of), all = run.summary.answers, sign = of.worst === "least" ? 1 : -1, value = `value[${of.root_unit ?? of.unit}]`;
+  const answers = [all?.[key], ...Object.values((all?.[`${key}s`] as object | undefined) ?? {})] as (Answer | undefined)[];
+  const told = answers.filter((a): a is Answer => typeof a?.[value] === "number");
+  if (!told.length) return undefined;
+  const answer = told.reduce((a, b) => (sign * (b[value] as number) < sign * (a[value] as number) ? b : a));
+  return { found: { value: answer[value] as number, at: answer["at[m]"] as number[] | undefined }, answer };
+}
+
 /** The casting, no riser, whose last melt froze last. */
 function lastFrozen(run: Run): Answer | undefined {
   const all = parts(run).map((c) => c.last_melt_froze).filter((a) => a !== undefined);
@@ -74,11 +84,11 @@ function textOf(value: number, unit: Unit): string {
 
 /** The figure of a quantity: what the answers say of the parts, else what the criteria found, else the largest in the elements at the end. */
 function figureOf(of: Quantity): Figure {
-  const { end, answer } = worst(of), si = of.root_unit ?? of.unit, unit = unitOf(of.name, of.unit);
+  const { end } = worst(of), si = of.root_unit ?? of.unit, unit = unitOf(of.name, of.unit);
   const find = (r: Run): { value: number; at?: number[] } | undefined => {
     const told = worstOfParts(r, of);
     if (told) return { value: told.value, at: told.answer["at[m]"] as number[] };
-    const found = criterion(r, of.name, end);
+    const found = criterion(r, of.name, end) ?? worstOfWhole(r, of)?.found;
     if (found) return found;
     const field = r.fields.find((f) => f.id === of.name), castings = r.castings;
     if (!field?.ofElements) return undefined;
@@ -100,7 +110,7 @@ function figureOf(of: Quantity): Figure {
     },
     error: (r) => {
       const all = r.summary.answers, found = all?.errors_of_criteria?.[`${of.name}_${end}`];
-      return errorText(worstOfParts(r, of)?.answer, si, shown) ?? errorText(found, "SI", shown) ?? errorText(all?.[answer] as Answer | undefined, si, shown);
+      return errorText(worstOfParts(r, of)?.answer, si, shown) ?? errorText(found, "SI", shown) ?? errorText(worstOfWhole(r, of)?.answer, si, shown);
     },
   };
 }
