@@ -95,11 +95,13 @@ def plan(run, times, summary, history, results, wishes):
     considered = set()
 
     def add(field, file=None, when=None, **spec):
-        """A sheet of a field that was written, where `when` holds of its values. `telling`: what a customer asks first has the
-        lowest number, of which a printed report shows some."""
+        """A sheet of a field that was written, where `when` holds of its values; title and unit are those of its declaration
+        unless `spec` has others. `telling`: what a customer asks first has the lowest number, of which a printed report shows
+        some."""
         considered.add(field)
         if field in written and (when is None or when()):
-            sheets.append({"file": file or f"overview_{field}", "field": field, "times": [last], "bodies": cast, **spec})
+            declared = {"title": fields.label(field), **_shown(field)}
+            sheets.append({"file": file or f"overview_{field}", "field": field, "times": [last], "bodies": cast, **declared, **spec})
 
     def frozen():
         return "solidified_at" in written and (grid.point_data["solidified_at"] >= 0).any()
@@ -111,25 +113,25 @@ def plan(run, times, summary, history, results, wishes):
     add("temperature", title="Temperature of the casting" if others else "Temperature", unit="degC", times=during,
         levels=_levels(summary), telling=8)
     if during != [last] or others:
-        add("temperature", "overview_temperature_end", unit="degC", bodies=list(run.bodies),
+        add("temperature", "overview_temperature_end", bodies=list(run.bodies),
             title="Temperature at the end" if times[-1] == whole[-1] else "Temperature before the casting leaves")
     if during != [last] or _melt(grid, mask):
-        add("solid_fraction", title="Solid fraction", unit="%", times=during, range=[0, 100], levels=[])
+        add("solid_fraction", unit="%", times=during, range=[0, 100], levels=[])
     add("solidified_at", when=frozen, title="Time of solidification, with hot spots", quantity="Solid after", above=-0.5,
         hot_spots=True, timeless=True, telling=1)
     add("niyama", when=feeds_badly, title=f"Niyama below {limit:g} √(K s)/mm", quantity="Niyama", above=0, below=limit,
         timeless=True, remark=NIYAMA_REMARK.format(limit), telling=5)
     add("shrinkage_porosity", when=lambda: frozen() and (grid.point_data["shrinkage_porosity"] > 0).any(),
-        title="Estimate of shrinkage porosity", unit="%", timeless=True, telling=3)
+        title="Estimate of shrinkage porosity", timeless=True, telling=3)
     add("pore_fraction", when=lambda: grid.cell_data["pore_fraction"][mask].any(), title="Shrinkage that nothing fed (pores)",
-        quantity="Pores", unit="%", telling=2)
+        quantity="Pores", telling=2)
     add("gap", when=lambda: "displacement" in written and (grid.point_data["gap"] > 0).any(),
-        title="Gap between casting and mould", unit="mm", skin_alone=True, contours=0)
-    add("distortion", when=lambda: np.any(grid.point_data["distortion"]), title="Distortion", unit="mm", telling=4)
-    add("displacement", when=lambda: "distortion" not in written, title="Displacement", unit="mm")
+        title="Gap between casting and mould", skin_alone=True, contours=0)
+    add("distortion", when=lambda: np.any(grid.point_data["distortion"]), telling=4)
+    add("displacement", when=lambda: "distortion" not in written)
     add("von_mises", when=lambda: grid.cell_data["von_mises"][mask].any(),
         title="Residual stress, von Mises" if cast != list(run.bodies) or case.spots else "Stress, von Mises",
-        quantity="von Mises stress", unit="MPa", smooth=True,
+        quantity="von Mises stress", smooth=True,
         remark="averaged at the nodes; the largest and least values are those of elements", telling=6)
     # Zones are worth a picture where more than one pool fed the castings.
     add("feeding_zone", when=lambda: np.unique(grid.point_data["feeding_zone"][nodes_of(grid, mask)]).size > 1,
@@ -140,6 +142,12 @@ def plan(run, times, summary, history, results, wishes):
     if kind != "plane_strain" and kind != "plane_stress" and any(values[mask_of].any() for values, mask_of in _holes(grid, mask)):
         sheets.append({"file": "overview_xray", "kind": "xray", "times": [last], "bodies": cast, "title": "As on a radiograph", "telling": 2})
     return case, sheets
+
+
+def _shown(field):
+    """The unit in which people read a field, where files have another."""
+    declared = fields.find(field)
+    return {} if declared is None or declared.shown == declared.unit else {"unit": declared.shown}
 
 
 def _holes(grid, mask):

@@ -6,14 +6,11 @@ Measured points are drawn as circles in the colour of their curve. docs/guide/po
 import matplotlib.pyplot as plt
 import numpy as np
 
-from solidus_plots import style
+from solidus_plots import fields, style
 from solidus_plots.history import Table, read_table
 from solidus_plots.vtu import ResultError
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
-WORDS = {"strain": "Strain", "stress": "Stress", "temperature": "Temperature", "time": "Time",
-         "equivalent_plastic_strain": "Equivalent plastic strain", "von_mises": "Von Mises stress",
-         "solid_fraction": "Solid fraction"}
 
 
 class Curve:
@@ -41,13 +38,10 @@ def column_of(table, name):
 
 
 def words(table, name):
-    """Axis label: stress_xx -> Stress xx [MPa]."""
+    """Axis label: stress_xx -> Stress xx [MPa]. A column with the name of a field has its label."""
     stem, _, component = name.rpartition("_")
-    text = WORDS.get(name)
-    if text is None and component in COMPONENTS:
-        text = f"{WORDS.get(stem, stem.replace('_', ' ').capitalize())} {component}"
-    unit = "%" if "strain" in name else Table.unit(header_of(table, name))
-    return style.axis_label(text or name.replace("_", " ").capitalize(), unit)
+    text = f"{fields.label(stem)} {component}" if component in COMPONENTS else fields.label(name)
+    return style.axis_label(text, "%" if "strain" in name else Table.unit(header_of(table, name)))
 
 
 def loaded_component(curves):

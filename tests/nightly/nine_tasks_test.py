@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import nine_tasks  # noqa: E402
 
-PARTS = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "cmake", "src", "python", "docs/developers", "docs/theory", "materials", "interfaces",
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "CITATION.cff", "LICENSE", "cmake", "src", "python", "docs/developers", "docs/theory", "materials", "interfaces",
          "tests/laws", "web/report/built")
 
 
