@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <map>
 #include <unordered_map>
@@ -73,7 +74,8 @@ class Welder {
   using Cell = std::array<long, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const {
-      return as_size(c[0]) * 73856093U ^ as_size(c[1]) * 19349663U ^ as_size(c[2]) * 83492791U;
+      constexpr std::hash<long> bits;  // cells left of or below the origin have negative numbers
+      return bits(c[0]) * 73856093U ^ bits(c[1]) * 19349663U ^ bits(c[2]) * 83492791U;
     }
   };
   double tolerance_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <unordered_map>
 
 #include "mesh/raw_mesh.hpp"
@@ -19,7 +20,7 @@ struct FaceKey {
 struct FaceKeyHash {
   std::size_t operator()(const FaceKey& k) const {
     std::size_t h = 0;
-    for (const Index v : k.vertices) h = h * 0x9E3779B97F4A7C15ULL + as_size(v) + (h >> 29);
+    for (const Index v : k.vertices) h = h * 0x9E3779B97F4A7C15ULL + std::hash<Index>{}(v) + (h >> 29);
     return h;
   }
 };

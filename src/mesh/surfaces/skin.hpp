@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -53,7 +54,8 @@ class SkinSearch {
   using Cell = std::array<long, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const {
-      return as_size(c[0]) * 73856093U ^ as_size(c[1]) * 19349663U ^ as_size(c[2]) * 83492791U;
+      constexpr std::hash<long> bits;  // cells left of or below the origin have negative numbers
+      return bits(c[0]) * 73856093U ^ bits(c[1]) * 19349663U ^ bits(c[2]) * 83492791U;
     }
   };
   Cell cell(const Point& p) const;
