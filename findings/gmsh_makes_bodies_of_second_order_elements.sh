@@ -6,7 +6,7 @@
 # Versions:  Gmsh 4.8.4 (Debian 12) and 4.13.1 (Debian 13)
 # Seen on:   30 November 2026, Debian 12, x86-64
 # Matters:   a casting is hundreds of bodies; mid-edge nodes belong to no element.
-# Solidus:   reads .mesh by Gmsh, and gets as many bodies of such a file: .msh keeps order and bodies (docs/guide/formats.md).
+# Solidus:   reads .mesh by a reader of its own, which refuses such a line with its number (docs/guide/formats.md).
 . "$(dirname "${BASH_SOURCE[0]}")/common/root.sh"
 
 write_and_read() {

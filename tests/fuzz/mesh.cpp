@@ -1,8 +1,9 @@
-/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv, .vtk or .vtu, which the first byte
-/// chooses.
+/// Any bytes as a mesh that Solidus reads itself: .msh, .inp, .bdf, .unv, .mesh, .vtk or .vtu, which the
+/// first byte chooses.
 #include "input.hpp"
 #include "mesh/files/abaqus_input.hpp"
 #include "mesh/files/gmsh_mesh_file.hpp"
+#include "mesh/files/medit_file.hpp"
 #include "mesh/files/nastran_input.hpp"
 #include "mesh/files/universal_file.hpp"
 #include "mesh/files/vtk_legacy.hpp"
@@ -17,6 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       return fuzz::answer([&] { mesh::read_abaqus_input(file, 0.001); });
     case 'n':
       return fuzz::answer([&] { mesh::read_nastran(file, 0.001); });
+    case 'm':
+      return fuzz::answer([&] { mesh::read_medit_file(file, 0.001); });
     case 'u':
       return fuzz::answer([&] { mesh::read_universal_file(file, 0.001); });
     case 'l':

@@ -1,6 +1,7 @@
-/// Meshes of Medit (.mesh), which Gmsh reads.
+/// Meshes of Medit (.mesh).
 #include "mesh/files/file_format.hpp"
 #include "mesh/files/format_signs.hpp"
+#include "mesh/files/medit_file.hpp"
 
 namespace solidus::mesh {
 
@@ -8,6 +9,10 @@ namespace {
 
 bool begins(std::string_view head) {
   return is_text(head) && head.find("MeshVersionFormatted") != std::string_view::npos;
+}
+
+std::optional<RawMesh> read(const std::string& path, double unit_in_metres) {
+  return read_medit_file(path, unit_in_metres);
 }
 
 }  // namespace
@@ -18,7 +23,7 @@ FileFormat format_medit() {
           .endings = {".mesh", ".MESH"},
           .begins = &begins,
           .begins_with = "'MeshVersionFormatted'",
-          .by_gmsh = true};
+          .read = &read};
 }
 
 }  // namespace solidus::mesh

@@ -125,7 +125,8 @@ void Reader::take(const NastranCard& card) {
   for (const ElementCard& kind : k_elements)
     if (name == kind.name) return take_element(card, kind);
   // Elements that would be read wrongly are refused by name.
-  if (is_any_of(name, {"CTRIAX", "CTRIAX6", "CQUADX", "CQUAD", "CPLSTN3", "CPLSTN4", "CPLSTN6", "CPLSTN8"}))
+  if (is_any_of(name, {"CTRIAX", "CTRIAX6", "CQUADX", "CQUAD", "CQUAD9", "CPLSTN3", "CPLSTN4", "CPLSTN6",
+                       "CPLSTN8"}))
     card.fail("elements of the type '" + name + "' are not supported",
               "CTETRA, CHEXA, CPENTA, CPYRAM, CTRIA3, CTRIA6, CQUAD4 and CQUAD8");
   if (is_any_of(name, {"CORD3G", "CORD3R", "GMCORD", "SEBULK", "SELOC", "SEMPLN", "GRIDB", "GRIDF", "GRIDS",
@@ -172,6 +173,23 @@ void Reader::take_name(std::string_view comment) {
   }
 }
 
+/// Gmsh writes all nodes of a hexahedron of 27, or of elements of third order, where the format has 20 or
+/// fewer. Behind the nodes of a solid nothing may come; behind those of a face comes an angle or a system,
+/// but at CQUAD8, and then lengths, which are no whole numbers.
+void check_no_more_nodes(const NastranCard& card, const ElementCard& kind) {
+  const std::size_t all = as_size(node_count(kind.second)), behind = 2 + all;
+  const bool solid = mesh::dimension(kind.first) == 3;
+  const std::size_t first = solid || kind.second == Shape::quad8 ? behind : behind + 1;
+  if (!card.has(first)) return;
+  const std::string& field = card.fields[first];
+  const bool node = field != "0" && field.find_first_not_of("0123456789") == std::string::npos;
+  if (!solid && !node) return;
+  const std::string corners = std::to_string(node_count(kind.first));
+  card.fail(card.name + " " + card.fields[0] + " has more than " + std::to_string(all) + " nodes",
+            (kind.first == kind.second ? corners : corners + " or " + std::to_string(all)) +
+                " nodes; in Gmsh Mesh.SecondOrderIncomplete = 1 before setOrder(2)");
+}
+
 void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
   Element e{kind.first, card.integer(0), card.integer(1, 0), {}, card.at};
   // How many nodes the card has decides between first and second order.
@@ -188,6 +206,7 @@ void Reader::take_element(const NastranCard& card, const ElementCard& kind) {
   if (is_split && card.has(2 + all))
     card.fail(card.name + " " + std::to_string(e.number) + " is of second order",
               card.name + " with its " + std::to_string(all) + " corner nodes");
+  check_no_more_nodes(card, kind);
   if (given == all)
     e.shape = kind.second;
   else if (given != corners || !card.has(1 + corners))

@@ -27,7 +27,7 @@ TEST(FileFormats, AreKeptFromGmshUnlessItKnowsThem) {
   for (const FileFormat& format : file_formats())
     if (format.by_gmsh) by_gmsh.insert(format.name);
   EXPECT_EQ(by_gmsh,
-            (std::set<std::string_view>{"BREP", "Gmsh mesh", "Gmsh script", "IGES", "Medit", "STEP", "VTK"}));
+            (std::set<std::string_view>{"BREP", "Gmsh mesh", "Gmsh script", "IGES", "STEP", "VTK"}));
 }
 
 TEST(FileFormats, AreRefusedWhereAnEndingIsTakenOrNothingReadsThem) {

@@ -195,6 +195,26 @@ TEST(NastranInput, ElementsWithoutPropertyAreOneBody) {
   EXPECT_TRUE(bulk(nodes + "CTETRA,4,,1,2,3,4\n").groups.contains("body_4"));
 }
 
+// Gmsh writes all nodes of its elements, whatever the format has.
+TEST(NastranInput, MoreNodesThanTheFormatHasAreRefused) {
+  std::string nodes, all;
+  for (int i = 1; i <= 27; ++i) {
+    nodes += "GRID," + std::to_string(i) + ",,0.,0.," + std::to_string(i) + ".\n";
+    all += "," + std::to_string(i) + (i == 6 || i == 14 || i == 22 ? "\n" : "");
+  }
+  EXPECT_THAT(complaint_of_bulk(nodes + "CHEXA,1,1" + all + "\n"),
+              AllOf(HasSubstr(":28"), HasSubstr("CHEXA 1 has more than 20 nodes"), HasSubstr("8 or 20")));
+  EXPECT_THAT(complaint_of_bulk(nodes + "CTRIA3,1,1,1,2,3,4,5,6\n,7,8,9,10\n"),
+              HasSubstr("CTRIA3 1 has more than 3 nodes"));
+  EXPECT_THAT(complaint_of_bulk(nodes + "CQUAD9,1,1,1,2,3,4,5,6\n,7,8,9\n"), HasSubstr("'CQUAD9'"));
+  // A system and an offset of a shell are no nodes.
+  EXPECT_EQ(bulk("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nCTRIA3,1,1,1,2,3,4,0.5\n")
+                .groups.at("body_1")
+                .blocks.at(0)
+                .shape,
+            Shape::tri3);
+}
+
 TEST(NastranInput, AnIncludedFileIsReadBesideIt) {
   write_bulk("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n", "nodes.inc");
   EXPECT_EQ(bulk("INCLUDE 'nodes.inc'\nCTRIA3,1,1,1,2,3\n").groups.at("body_1").dimension, 2);
