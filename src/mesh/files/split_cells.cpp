@@ -25,7 +25,7 @@ namespace {
 using Faces = std::span<const std::array<int, 4>>;
 using Corners = std::span<const Index>;
 /// The corners of a face in rising order; a triangle has −1 first.
-using FaceKey = std::array<Index, 4>;
+using CellFace = std::array<Index, 4>;
 
 // Corners of the faces, outward; −1 behind those of a triangle. In the order of Abaqus.
 constexpr std::array<std::array<int, 4>, 5> k_wedge_faces{
@@ -56,8 +56,8 @@ bool repeats(Corners corners) {
   return false;
 }
 
-FaceKey key_of(Corners corners) {
-  FaceKey key{-1, -1, -1, -1};
+CellFace key_of(Corners corners) {
+  CellFace key{-1, -1, -1, -1};
   std::copy(corners.begin(), corners.end(), key.begin() + static_cast<std::ptrdiff_t>(4 - corners.size()));
   std::ranges::sort(key);
   return key;
@@ -85,7 +85,7 @@ std::vector<Triangle> triangles_of(std::vector<Index> corners) {
 }
 
 struct HashOfFace {
-  std::size_t operator()(const FaceKey& key) const {
+  std::size_t operator()(const CellFace& key) const {
     std::size_t hash = 0;
     for (const Index node : key) hash = 1099511628211U * (hash ^ as_size(static_cast<std::uint32_t>(node)));
     return hash;
@@ -150,7 +150,7 @@ class Splitter {
   std::size_t n_wedges_ = 0, n_pyramids_ = 0, n_collapsed_ = 0;
   std::vector<Cell> seeds_;  ///< cells that have to be split
   std::set<Cell> split_;     ///< hexahedra that are split
-  std::set<FaceKey> cut_;    ///< quadrilaterals of all cells that are split
+  std::set<CellFace> cut_;   ///< quadrilaterals of all cells that are split
 };
 
 void Splitter::find_cells() {
@@ -181,7 +181,7 @@ void Splitter::find_cells() {
 // From face to face over all hexahedra that hang together with a cell that is split.
 void Splitter::spread() {
   // Hexahedra by their quadrilaterals, which are where a cut spreads.
-  std::unordered_map<FaceKey, std::vector<Cell>, HashOfFace> hexahedra;
+  std::unordered_map<CellFace, std::vector<Cell>, HashOfFace> hexahedra;
   for (const auto& [name, group] : mesh_.groups)
     for (const RawBlock& block : group.blocks)
       if (block.shape == Shape::hex8 || block.shape == Shape::hex20)
