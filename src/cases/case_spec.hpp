@@ -150,6 +150,7 @@ struct MeshSpec {
   std::optional<MouldBlockSpec> mould;
   std::vector<MeshCoatSpec> coats;  ///< from the metal outward
   std::vector<RiserBlockSpec> risers;
+  std::vector<GatingBlockSpec> gatings;
   std::vector<ChillBlockSpec> chills;
   std::optional<SymmetrySpec> symmetry;
   /// Run a .geo script without checks. This is never a key of a case file: the user who runs a case decides

@@ -1,5 +1,5 @@
-/// Risers and chills that a case file puts onto the geometry of a casting (mesh/making/casting_geometry.hpp).
-/// All lengths in metres.
+/// Risers, gating and chills that a case file puts onto the geometry of a casting
+/// (mesh/making/casting_geometry.hpp). All lengths in metres.
 #pragma once
 
 #include <optional>
@@ -26,6 +26,18 @@ struct RiserBlockSpec {
 struct ChillBlockSpec {
   std::string name;
   std::vector<double> lowest, highest;  ///< corners of a box, of which what lies outside of the parts counts
+  SourceLocation where;
+};
+
+/// Sprue, runner and ingate in one body.
+struct GatingBlockSpec {
+  std::string name;
+  std::vector<double> gate;       ///< middle of the end of the ingate
+  std::vector<double> gate_size;  ///< width and height of the ingate
+  double gate_length = 0;
+  std::vector<double> runner_size;             ///< width and height of the runner
+  std::vector<double> sprue;                   ///< middle of the top of the sprue
+  double foot_diameter = 0, top_diameter = 0;  ///< of the sprue
   SourceLocation where;
 };
 

@@ -316,6 +316,7 @@ Section<MeshSpec> mesh_keys() {
   s.section("mould", &MeshSpec::mould, mould_keys());
   s.sections("coat", &MeshSpec::coats, coat_keys());
   s.sections("riser", &MeshSpec::risers, riser_keys()).or_one();
+  s.sections("gating", &MeshSpec::gatings, gating_keys());
   s.sections("chill", &MeshSpec::chills, chill_keys());
   s.section("symmetry", &MeshSpec::symmetry, symmetry_keys());
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())

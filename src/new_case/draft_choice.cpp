@@ -43,6 +43,7 @@ class Choice {
     thickest_ = 2 * (part_.spheres.empty() ? part_.thickness_at(0.9) / 2 : part_.spheres.front().radius);
     if (!options_.symmetry.empty()) choose_symmetry();
     if (options_.riser || !options_.feeders.empty()) choose_feeders();
+    if (!options_.gating.empty()) choose_gating();
     choose_bodies();
     if (!part_.has_mould) choose_mould();
     // Hot spots become probes. They are folded to the half that is computed, and rounded so that the text is
@@ -148,8 +149,10 @@ class Choice {
       body.role = role;
       describe(draft_, process_, body);
     };
-    // Risers, sleeves and chills follow the bodies of the file, each as a body with a role of its own.
+    // Risers, gating, sleeves and chills follow the bodies of the file, each as a body with a role of its
+    // own.
     for (const DraftRiser& riser : draft_.risers) add(riser.name, cases::Role::riser);
+    for (const mesh::GatingSystem& gating : draft_.gatings) add(gating.name, cases::Role::gating);
     for (const DraftRiser& riser : draft_.risers)
       if (riser.sleeve > 0) add(riser.name + "_sleeve", cases::Role::sleeve);
     for (const DraftChill& chill : draft_.chills) add(chill.name, cases::Role::chill);
@@ -168,7 +171,7 @@ class Choice {
     mould.walls.fill(wall);
     // At the plane of symmetry and at an open top there is no wall, because the mould ends there.
     if (draft_.symmetry) mould.walls[2 * as_size(draft_.symmetry->axis) + 1] = 0;
-    if (riser_on_top() || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
+    if (opens_on_top() || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
     DraftBody& body = draft_.bodies.emplace_back();
     body.name = body.group = process_.mould == cases::Role::die ? "die" : "mould";
     mould.name = body.name;
@@ -213,6 +216,14 @@ class Choice {
     for (const DraftRiser& riser : draft_.risers) thickest_ = std::max(thickest_, riser.diameter);
   }
 
+  /// Gating of a file. A thick runner freezes late, as a thick riser does.
+  void choose_gating() {
+    draft_.gatings = read_gating(options_.gating);
+    for (const mesh::GatingSystem& gating : draft_.gatings)
+      thickest_ = std::max({thickest_, std::min(gating.runner_width, gating.runner_height),
+                            0.5 * (gating.foot_diameter + gating.top_diameter)});
+  }
+
   /// Lets the risers end where the highest does, so that all are open, but for those that would become half
   /// as high again, which are closed.
   void end_at_one_height() {
@@ -223,10 +234,13 @@ class Choice {
       if (top - riser.foot[2] < k_longer * riser.height) riser.height = top - riser.foot[2];
   }
 
-  /// Whether a riser that was put onto the parts reaches above all of them.
-  bool riser_on_top() const {
+  /// Whether a riser or a sprue that was put onto the parts reaches above all of them.
+  bool opens_on_top() const {
+    const auto above = [&](double top) { return top > part_.high[2]; };
     return std::ranges::any_of(
-        draft_.risers, [&](const DraftRiser& riser) { return riser.foot[2] + riser.height > part_.high[2]; });
+               draft_.risers, [&](const DraftRiser& riser) { return above(riser.foot[2] + riser.height); }) ||
+           std::ranges::any_of(draft_.gatings,
+                               [&](const mesh::GatingSystem& gating) { return above(gating.top[2]); });
   }
 
   /// Whether a riser or the gating of the file is what reaches highest of all metal: a pouring cup is open;

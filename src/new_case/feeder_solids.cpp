@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "mesh/raw_mesh.hpp"
@@ -40,10 +41,28 @@ class Script {
     upright(r, wide, top, r.diameter);
     combine("Difference");
   }
+  void add(const mesh::GatingSystem& g) {
+    const double along = std::hypot(g.top[0] - g.gate[0], g.top[1] - g.gate[1]);
+    const double beyond = 0.5 * std::max(g.foot_diameter, g.runner_width), floor = g.floor();
+    box({g.gate[0], g.gate[1] - 0.5 * g.gate_width, floor}, {g.gate_length, g.gate_width, g.gate_height});
+    box({g.gate[0] + g.gate_length, g.gate[1] - 0.5 * g.runner_width, floor},
+        {along + beyond - g.gate_length, g.runner_width, g.runner_height});
+    unite();
+    // Ingate and runner were drawn along x.
+    text_ += fmt::format("Rotate {{ {{0, 0, 1}}, {{{}}}, {:.17g} }} {{ Volume{{{}}}; }}\n",
+                         place({g.gate[0], g.gate[1], floor}),
+                         std::atan2(g.top[1] - g.gate[1], g.top[0] - g.gate[0]), next_ - 1);
+    const mesh::Point foot{g.top[0], g.top[1], floor}, up{0, 0, g.top[2] - floor};
+    // The kernel makes no cone of two equal ends.
+    if (g.foot_diameter == g.top_diameter)
+      cylinder(foot, up, g.top_diameter);
+    else
+      text_ += fmt::format("Cone({}) = {{{}, {}, {:.9g}, {:.9g}}};\n", next_++, place(foot), place(up),
+                           500 * g.foot_diameter, 500 * g.top_diameter);
+    unite();
+  }
   void add(const DraftChill& c) {
-    text_ += fmt::format(
-        "Box({}) = {{{}, {}}};\n", next_++, place(c.lowest),
-        place({c.highest[0] - c.lowest[0], c.highest[1] - c.lowest[1], c.highest[2] - c.lowest[2]}));
+    box(c.lowest, {c.highest[0] - c.lowest[0], c.highest[1] - c.lowest[1], c.highest[2] - c.lowest[2]});
   }
   const std::string& text() const { return text_; }
 
@@ -55,6 +74,9 @@ class Script {
   void cylinder(const mesh::Point& from, const mesh::Point& along, double diameter) {
     text_ += fmt::format("Cylinder({}) = {{{}, {}, {:.9g}}};\n", next_++, place(from), place(along),
                          500 * diameter);
+  }
+  void box(const mesh::Point& lowest, const mesh::Point& size) {
+    text_ += fmt::format("Box({}) = {{{}, {}}};\n", next_++, place(lowest), place(size));
   }
   void upright(const DraftRiser& r, double low, double high, double diameter) {
     cylinder({r.foot[0], r.foot[1], low}, {0, 0, high - low}, diameter);
@@ -74,9 +96,10 @@ class Script {
 }  // namespace
 
 void write_feeder_solids(const Draft& draft, const std::filesystem::path& file) {
-  if (draft.risers.empty() && draft.chills.empty()) return;
+  if (draft.risers.empty() && draft.gatings.empty() && draft.chills.empty()) return;
   Script script;
   for (const DraftRiser& riser : draft.risers) script.add(riser);
+  for (const mesh::GatingSystem& gating : draft.gatings) script.add(gating);
   for (const DraftChill& chill : draft.chills) script.add(chill);
   // The path is in quotes in the script, and a sign that ends them would let it run on as a command.
   const std::string path = std::filesystem::absolute(file).string();

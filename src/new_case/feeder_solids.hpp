@@ -1,4 +1,4 @@
-/// The solids of risers, sleeves and chills as a STEP file, for the CAD program that drew the part.
+/// The solids of risers, sleeves, gating and chills as a STEP file, for the CAD program that drew the part.
 #pragma once
 
 #include <filesystem>

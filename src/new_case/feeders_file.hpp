@@ -1,4 +1,4 @@
-/// A file of risers and chills for a part: `solidus new PART --riser FILE`.
+/// Files of risers and chills, and of gating, for a part: `solidus new PART --riser FILE --gating FILE`.
 #pragma once
 
 #include <filesystem>
@@ -16,5 +16,8 @@ struct Feeders {
 /// Reads [[riser]] and [[chill]] with the keys that [[mesh.riser]] and [[mesh.chill]] of a case have.
 /// Throws InputError with the place of what is wrong.
 Feeders read_feeders(const std::filesystem::path& file);
+
+/// Reads [[gating]] with the keys of [[mesh.gating]]. Throws InputError, also where there is none.
+std::vector<mesh::GatingSystem> read_gating(const std::filesystem::path& file);
 
 }  // namespace solidus::new_case

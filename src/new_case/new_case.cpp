@@ -14,6 +14,7 @@
 #include "new_case/feeders_file.hpp"
 #include "new_case/new_case_report.hpp"
 #include "new_case/part_measures.hpp"
+#include "new_case/preview.hpp"
 #include "system/processes.hpp"
 
 namespace solidus::new_case {
@@ -36,10 +37,11 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
   if (!options.symmetry.empty() && options.symmetry != "x" && options.symmetry != "y" &&
       options.symmetry != "z")
     throw InputError({"--symmetry"}, fmt::format("'{}' is no axis", options.symmetry), "x, y or z");
-  if ((options.riser || !options.feeders.empty()) && options.symmetry == "z")
-    throw InputError({"--symmetry"}, "with a riser on top nothing is symmetric in z",
-                     "x or y, or no --riser");
+  if ((options.riser || !options.feeders.empty() || !options.gating.empty()) && options.symmetry == "z")
+    throw InputError({"--symmetry"}, "with a riser or a sprue on top nothing is symmetric in z",
+                     "x or y, or no --riser and no --gating");
   if (!options.feeders.empty()) read_feeders(options.feeders);
+  if (!options.gating.empty()) read_gating(options.gating);
   if (options.shots > 0 && process.mould != cases::Role::die)
     throw InputError({"--shots"},
                      fmt::format("the mould of the process '{}' is lost with its casting", process.name),
@@ -61,12 +63,13 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   const std::filesystem::path folder =
       options.folder.empty() ? std::filesystem::path(options.geometry.stem().string()) : options.folder;
   // A case that is there is never overwritten.
-  if (std::filesystem::exists(folder / "case.toml"))
+  if (!options.preview && std::filesystem::exists(folder / "case.toml"))
     throw InputError({(folder / "case.toml").string()}, "there is a case already",
                      "another folder: -o FOLDER");
   // What the part is, what is chosen for it, and what an estimate makes of that.
   const PartMeasures part = measure_part(options);
   Draft draft = choose_draft(options, process, alloy, part);
+  if (options.preview) return {{}, preview_text(draft, part)};
   draft.folder = folder;
   if (options.fill) draft.filling = {options.gate};
   write_draft(draft);

@@ -18,6 +18,7 @@ struct NewCaseOptions {
   std::string unit;                      ///< of the file; empty: what the file says, else mm
   bool riser = false;                    ///< risers on the thick places
   std::filesystem::path feeders;         ///< a file of risers and chills; empty: none
+  std::filesystem::path gating;          ///< a file of gating; empty: none
   std::string symmetry;                  ///< "x", "y", "z": half of the part; empty: all of it
   std::vector<std::string> as;           ///< "NAME=role" of bodies of the file
   std::filesystem::path folder;          ///< for the case; empty: the file's name, here
@@ -26,6 +27,7 @@ struct NewCaseOptions {
   double shell = 0;                      ///< thickness of an investment shell [m]; zero: that of the process
   bool fill = false;                     ///< the run fills the mould first
   std::optional<mesh::Point> gate = {};  ///< place of the gate [m]; none: the program chooses
+  bool preview = false;                  ///< nothing is written: the report is what would be made, as JSON
 };
 
 /// The names of the processes.

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -107,7 +108,7 @@ std::string hollow_text(const Draft& draft) {
   return text;
 }
 
-/// The risers with the places that they were chosen for, and the chills.
+/// The risers with the places that they were chosen for, the gating and the chills.
 std::string feeders_text(const Draft& draft) {
   std::string text;
   for (const DraftRiser& riser : draft.risers) {
@@ -119,6 +120,13 @@ std::string feeders_text(const Draft& draft) {
       text += fmt::format(", for the place at ({:.4g}, {:.4g}, {:.4g}) mm with a modulus of {:.3g} mm",
                           1e3 * (*riser.hot_spot)[0], 1e3 * (*riser.hot_spot)[1], 1e3 * (*riser.hot_spot)[2],
                           1e3 * riser.modulus);
+  }
+  for (const mesh::GatingSystem& gating : draft.gatings) {
+    const double sprue = std::numbers::pi / 4 * gating.foot_diameter * gating.foot_diameter;
+    text += fmt::format(
+        "\n  {:<10}  areas of sprue, runner and ingate 1 : {:.2g} : {:.2g}, the sprue {:.3g} mm2 at its foot",
+        gating.name, gating.runner_width * gating.runner_height / sprue,
+        gating.gate_width * gating.gate_height / sprue, 1e6 * sprue);
   }
   for (const DraftChill& chill : draft.chills)
     text += fmt::format(

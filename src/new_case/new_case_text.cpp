@@ -47,6 +47,15 @@ std::string riser_text(const DraftRiser& r) {
   return t + "\n";
 }
 
+std::string gating_text(const mesh::GatingSystem& g) {
+  return fmt::format(
+      "[[mesh.gating]]   # ingate, runner and sprue, in one body\nname = {}\ngate = {}\n"
+      "gate_size = [{}, {}]     # width and height\ngate_length = {}\nrunner_size = [{}, {}]\n"
+      "sprue = {}   # the middle of its top\nfoot_diameter = {}\ntop_diameter = {}\n\n",
+      quoted(g.name), place_text(g.gate), mm(g.gate_width), mm(g.gate_height), mm(g.gate_length),
+      mm(g.runner_width), mm(g.runner_height), place_text(g.top), mm(g.foot_diameter), mm(g.top_diameter));
+}
+
 /// Sizes of elements in what is poured, and how they grow in what surrounds it.
 std::string element_size_text(const Draft& d, const DraftBody& b) {
   // Behind layers of sand elements that grow fast would take up too much heat.
@@ -54,7 +63,13 @@ std::string element_size_text(const Draft& d, const DraftBody& b) {
   if (cases::is_poured(b.role)) {
     // A riser that is put onto the part has four elements across, or its freezing is that of the mesh.
     const auto riser = std::ranges::find(d.risers, b.group, &DraftRiser::name);
-    const double most = riser == d.risers.end() ? d.size : two_digits(riser->diameter / 4);
+    double most = riser == d.risers.end() ? d.size : two_digits(riser->diameter / 4);
+    // Gating has two elements through its thinnest section.
+    if (const auto gating = std::ranges::find(d.gatings, b.group, &mesh::GatingSystem::name);
+        gating != d.gatings.end())
+      most = two_digits(std::min({gating->gate_width, gating->gate_height, gating->runner_width,
+                                  gating->runner_height, gating->foot_diameter, gating->top_diameter}) /
+                        2);
     return fmt::format(
         "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
         quoted(b.group), mm(std::min(d.size, most)), mm(std::min(d.smallest, most)));
@@ -101,6 +116,7 @@ std::string mesh_text(const Draft& d) {
   // Block, riser, symmetry and layers, as far as the draft has them.
   t += mould_text(d);
   for (const DraftRiser& riser : d.risers) t += riser_text(riser);
+  for (const mesh::GatingSystem& gating : d.gatings) t += gating_text(gating);
   for (const DraftChill& chill : d.chills)
     t += fmt::format(
         "[[mesh.chill]]   # what of this box is not metal\nname = {}\nlowest = {}\nhighest = {}\n\n",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cases/case_spec.hpp"
+#include "mesh/making/casting_geometry.hpp"
 #include "mesh/making/hot_spots.hpp"
 #include "new_case/die_channels.hpp"
 
@@ -95,6 +96,7 @@ struct Draft {
   std::optional<DraftMould> mould;
   std::optional<DraftShell> shell;
   std::vector<DraftRiser> risers;
+  std::vector<mesh::GatingSystem> gatings;
   std::vector<DraftChill> chills;
   std::vector<std::string> riser_notes;  ///< on places that no riser feeds
   std::optional<DraftSymmetry> symmetry;

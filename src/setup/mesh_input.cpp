@@ -105,6 +105,10 @@ mesh::CastingGeometry casting_geometry(const cases::MeshSpec& m) {
     if (!r.neck_to.empty()) riser.neck_to = point_of(r.neck_to);
     riser.sleeve = r.sleeve;
   }
+  for (const cases::GatingBlockSpec& g : m.gatings)
+    geometry.gatings.push_back({g.name, point_of(g.gate), g.gate_size[0], g.gate_size[1], g.gate_length,
+                                g.runner_size[0], g.runner_size[1], point_of(g.sprue), g.foot_diameter,
+                                g.top_diameter});
   for (const cases::ChillBlockSpec& c : m.chills)
     geometry.chills.push_back({c.name, point_of(c.lowest), point_of(c.highest)});
   if (m.symmetry) geometry.symmetry = {m.symmetry->axis[0] - 'x', m.symmetry->at};
@@ -173,7 +177,8 @@ mesh::RawMesh make_raw_mesh(cases::CaseSpec& spec, std::vector<FoundInterface>& 
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;
     source.size_factor = m.size_factor;
-    result = m.sizes.empty() && !m.mould && m.risers.empty() && m.chills.empty() && !m.symmetry
+    result = m.sizes.empty() && !m.mould && m.risers.empty() && m.gatings.empty() && m.chills.empty() &&
+                     !m.symmetry
                  ? mesh::read_mesh(source)
                  : mesh::mesh_casting(source, casting_geometry(m));
     add_coats(m, name, result);

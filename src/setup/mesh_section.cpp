@@ -18,7 +18,8 @@ namespace {
 
 /// Whether mould, riser, symmetry or sizes by walls are made of a geometry.
 bool of_casting(const cases::MeshSpec& m) {
-  return !m.sizes.empty() || m.mould || !m.risers.empty() || !m.chills.empty() || m.symmetry;
+  return !m.sizes.empty() || m.mould || !m.risers.empty() || !m.gatings.empty() || !m.chills.empty() ||
+         m.symmetry;
 }
 
 /// A slip in a size must not fill the memory.
@@ -111,7 +112,7 @@ void check_casting(const cases::MeshSpec& m) {
   if (of_casting(m) && (m.element_size || m.conforming))
     throw InputError(
         m.where,
-        fmt::format("'{}' together with sizes, mould, risers, chills or symmetry of [mesh], which "
+        fmt::format("'{}' together with sizes, mould, risers, gating, chills or symmetry of [mesh], which "
                     "make sizes and shared faces themselves",
                     m.element_size ? "element_size" : "conforming"),
         "[[mesh.size]] for each body");
@@ -120,8 +121,8 @@ void check_casting(const cases::MeshSpec& m) {
                      m.shape ? "'size_factor' is for files, and the mesh is a built-in shape"
                              : "'size_factor' together with sizes of [mesh], which it does not change",
                      m.shape ? "sizes or divisions of the shape" : "[[mesh.size]] for each body");
-  // Risers and chills are checked by the rules that a file of feeders obeys too.
-  cases::check_feeders(m.risers, m.chills);
+  // Risers, gating and chills are checked by the rules that a file of feeders obeys too.
+  cases::check_feeders(m.risers, m.gatings, m.chills);
 }
 
 void check_groups_of(const cases::MeshSpec& m) {

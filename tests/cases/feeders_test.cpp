@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <regex>
 
 #include "case_run.hpp"
 #include "mesh/making/casting_geometry.hpp"
@@ -75,6 +76,31 @@ TEST(Feeders, ARiserBesideThePartIsOneWithItsNeck) {
   EXPECT_LT(volume(raw, "riser"), riser + 1.1 * neck);
 }
 
+/// Gating on the face x = 60 mm of the block, whose runner leads away at a slope of three in four.
+mesh::GatingSystem gating_at_an_angle() {
+  return {"gating", {0.06, 0.03, 0.008}, 0.02, 0.008, 0.012, 0.016, 0.016, {0.1, 0.06, 0.08}, 0.012, 0.02};
+}
+
+/// Volumes of ingate, runner and the cone of the sprue, which stands in the runner [cm3].
+double volume_of_gating() {
+  const auto frustum = [](double height, double first, double second) {
+    return k_pi * height / 3 * (first * first + first * second + second * second);
+  };
+  const double at_roof = 6 + 4 * 16.0 / 76;  // radius of the sprue where the runner ends
+  return 1e-3 * (20 * 8 * 12 + 16 * 16 * (50 + 8 - 12) + frustum(76, 6, 10) - frustum(16, 6, at_roof));
+}
+
+TEST(Feeders, GatingHasTheVolumesOfIngateRunnerAndSprueOutsideOfThePart) {
+  mesh::CastingGeometry geometry;
+  geometry.gatings.push_back(gating_at_an_angle());
+  const mesh::RawMesh raw = mesh::mesh_casting({block().string(), 1e-3}, geometry, 0);
+  EXPECT_NEAR(volume(raw, "body_1"), 108e-6, 1e-9);  // the part keeps what overlaps
+  // A corner of the ingate is within the part: a triangle with sides of 10 and 7.5 mm.
+  const double outside = volume_of_gating() - 1e-3 * 0.5 * 10 * 7.5 * 8;
+  constexpr double k_facets = 0.02;
+  EXPECT_NEAR(1e6 * volume(raw, "gating"), outside, k_facets * outside);
+}
+
 // The file is read by itself, as a CAD program would.
 TEST(Feeders, SolidsAreWrittenWithNecksAndHollowSleeves) {
   solidus::new_case::Draft draft;
@@ -84,6 +110,7 @@ TEST(Feeders, SolidsAreWrittenWithNecksAndHollowSleeves) {
   riser.neck_diameter = 0.02, riser.neck_height = 0.007;
   riser.sleeve = 0.005;
   draft.chills.push_back({"chill", {0.01, 0.01, -0.01}, {0.03, 0.03, 0.001}});
+  draft.gatings.push_back(gating_at_an_angle());
   fs::create_directories(root());
   const fs::path file = root() / "solids.step";
   fs::remove(file);
@@ -95,10 +122,11 @@ TEST(Feeders, SolidsAreWrittenWithNecksAndHollowSleeves) {
   std::ranges::sort(volumes);
   const double sleeve = k_pi / 4 * (40 * 40 - 30 * 30) * 0.04,
                metal = k_pi / 4 * (20 * 20 * 0.007 + 30 * 30 * 0.04);
-  ASSERT_EQ(volumes.size(), 3U);
+  ASSERT_EQ(volumes.size(), 4U);
   EXPECT_NEAR(volumes[0], 4.4, 1e-4);
   EXPECT_NEAR(volumes[1], sleeve, 0.1 * sleeve);
-  EXPECT_NEAR(volumes[2], metal, 0.05 * metal);
+  EXPECT_NEAR(volumes[2], volume_of_gating(), 0.02 * volume_of_gating());
+  EXPECT_NEAR(volumes[3], metal, 0.05 * metal);
   EXPECT_FALSE(fs::exists(file.string() + ".geo"));
 }
 
@@ -107,7 +135,10 @@ std::string refusal(const std::string& text) {
   fs::create_directories(root());
   std::ofstream(root() / "feeders.toml") << text;
   try {
-    solidus::new_case::read_feeders(root() / "feeders.toml");
+    if (text.starts_with("[[gating]]"))
+      solidus::new_case::read_gating(root() / "feeders.toml");
+    else
+      solidus::new_case::read_feeders(root() / "feeders.toml");
   } catch (const solidus::InputError& error) {
     return error.what();
   }
@@ -124,12 +155,68 @@ TEST(Feeders, WhatNoSolidCanBeMadeOfIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(riser + "neck_diameter = \"20 mm\"\n"), HasSubstr("without 'neck_height'"));
   EXPECT_THAT(refusal(riser + "neck_to = [\"0 mm\", \"0 mm\", \"0 mm\"]\n"),
               HasSubstr("without 'neck_diameter'"));
-  EXPECT_THAT(refusal(riser + riser), HasSubstr("two risers or chills have the name 'riser'"));
+  EXPECT_THAT(refusal(riser + riser), HasSubstr("two of risers, gating and chills have the name 'riser'"));
   EXPECT_THAT(refusal(riser + "width = \"3 mm\"\n"), HasSubstr("unknown key 'width'"));
   EXPECT_THAT(
       refusal(
           "[[chill]]\nlowest = [\"0 mm\", \"0 mm\", \"0 mm\"]\nhighest = [\"1 mm\", \"1 mm\", \"0 mm\"]\n"),
       HasSubstr("'highest' is 0 m in z"));
+}
+
+TEST(Feeders, ANewCaseHasItsGatingAsAPouredBodyThatIsOpenAtItsTop) {
+  solidus::new_case::NewCaseOptions options;
+  options.geometry = block();
+  options.alloy = "aluminium_alsi7mg";
+  options.fineness = 0.5;
+  options.folder = root() / "gated";
+  options.gating = root() / "gating.toml";
+  fs::remove_all(options.folder);
+  std::ofstream(options.gating)
+      << "[[gating]]\nname = \"gating_1\"\ngate = [\"58 mm\", \"30 mm\", \"8 mm\"]\n"
+         "gate_size = [\"20 mm\", \"8 mm\"]\ngate_length = \"14 mm\"\nrunner_size = [\"16 mm\", \"16 mm\"]\n"
+         "sprue = [\"100 mm\", \"30 mm\", \"80 mm\"]\nfoot_diameter = \"12 mm\"\ntop_diameter = \"20 mm\"\n";
+  // What would be made: a mould that ends with the sprue, 80 mm high, and has walls on its other sides.
+  options.preview = true;
+  const std::string ahead = solidus::new_case::make_new_case(options).text;
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      ahead, found,
+      std::regex(R"rx("high": \[([^,]+), [^,]+, ([^\]]+)\], "walls": \[([^,]+), ([^,]+), .*, 0\])rx")))
+      << ahead;
+  EXPECT_NEAR(std::stod(found[2]), 0.08, 1e-9);
+  EXPECT_NEAR(std::stod(found[1]), 0.11 + std::stod(found[4]), 1e-9);  // the sprue is 20 mm wide at 100 mm
+  EXPECT_FALSE(fs::exists(options.folder));
+  options.preview = false;
+  const solidus::new_case::NewCaseReport report = solidus::new_case::make_new_case(options);
+  EXPECT_THAT(report.text, HasSubstr("areas of sprue, runner and ingate 1 : 2.3 : 1.4"));
+  const solidus::setup::Case c = solidus::setup::load_case(
+      report.file, {"time.end=\"3 s\"", "time.step=\"1 s\""}, solidus::cases::Physics::heat);
+  const auto body = std::ranges::find(c.spec.bodies, "gating_1", &solidus::cases::BodySpec::name);
+  ASSERT_NE(body, c.spec.bodies.end());
+  EXPECT_EQ(body->role, solidus::cases::Role::gating);
+  EXPECT_NE(std::ranges::find(c.spec.thermal_conditions, "radiation_of_gating_1",
+                              &solidus::cases::ThermalConditionSpec::name),
+            c.spec.thermal_conditions.end());
+  solidus::run::RunOptions run;
+  run.folder = root() / "gated_results";
+  const solidus::run::RunResult result = solidus::run::run_case(c, run);
+  EXPECT_TRUE(result.finished) << result.reason;
+}
+
+TEST(Feeders, GatingThatCannotBeDrawnIsRefusedWithItsReason) {
+  const auto gating = [](const std::string& sprue, const std::string& size) {
+    return "[[gating]]\ngate = [\"0 mm\", \"0 mm\", \"10 mm\"]\ngate_size = " + size +
+           "\ngate_length = \"20 mm\"\nrunner_size = [\"20 mm\", \"25 mm\"]\nsprue = " + sprue +
+           "\nfoot_diameter = \"10 mm\"\ntop_diameter = \"15 mm\"\n";
+  };
+  const std::string size = "[\"20 mm\", \"10 mm\"]", sprue = "[\"40 mm\", \"0 mm\", \"80 mm\"]";
+  EXPECT_EQ(refusal(gating(sprue, size)), "");
+  EXPECT_THAT(refusal(gating("[\"24 mm\", \"0 mm\", \"80 mm\"]", size)), HasSubstr("have no room"));
+  // The runner lies on the floor of the ingate, 5 mm, and is 25 mm high.
+  EXPECT_THAT(refusal(gating("[\"40 mm\", \"0 mm\", \"29 mm\"]", size)),
+              HasSubstr("the sprue ends at 0.029 m, and the runner reaches 0.03 m"));
+  EXPECT_THAT(refusal(gating("[\"40 mm\", \"0 mm\"]", size)), HasSubstr("'sprue' has 2 coordinates"));
+  EXPECT_THAT(refusal(gating(sprue, "[\"20 mm\"]")), HasSubstr("'gate_size' is no width and height"));
 }
 
 }  // namespace

@@ -59,6 +59,8 @@ elif verb == "mesh-info":
         "0 0 0\\n1 0 0\\n0 1 0\\n1 0 0\\n1 1 0\\n0 1 0\\nPOLYGONS 2 8\\n3 0 1 2\\n3 3 4 5\\nCELL_DATA 2\\nSCALARS face int 1\\nLOOKUP_TABLE default\\n"
         "4\\n5\\nSCALARS body int 1\\nLOOKUP_TABLE default\\n0\\n0\\n")
     print("face  owner                  faces\\n   4  a plate                      91      2744.4  (0, 0, 0)    curved")
+elif verb == "new" and "--preview" in words:
+    print('{"low": [0, 0, 0], "high": [1, 1, 1], "walls": null, "shell": 0, "size": 0.006, "smallest": 0.003, "mould_size": 0.01, "risers": []}')
 elif verb == "new":
     folder = pathlib.Path(given["output"])
     folder.mkdir(parents=True)
@@ -164,8 +166,8 @@ class Chosen(unittest.TestCase):
     def test_choices_become_words_of_new(self):
         chosen = choices.checked({"alloy": "pure_tin", "riser": "placed", "risers": [{"foot": [0, 0.01, 0.02], "diameter": 0.03, "height": 0.05}],
                                   "roles": {"a": "core", "b": ""}, "gate": [0, 0, 0.001]})
-        words = choices.words(chosen, pathlib.Path("p.step"), pathlib.Path("f.toml"), pathlib.Path("out"))
-        self.assertEqual(words, ["--alloy=pure_tin", "--process=sand", "--fineness=1", "--output=out", "--riser=f.toml",
+        words = choices.words(chosen, pathlib.Path("p.step"), pathlib.Path("own"), pathlib.Path("out"))
+        self.assertEqual(words, ["--alloy=pure_tin", "--process=sand", "--fineness=1", "--output=out", "--riser=own/feeders.toml",
                                  "--gate=0 mm, 0 mm, 1 mm", "--as=a=core", "p.step"])
         self.assertIn('foot = ["0 mm", "10 mm", "20 mm"]', choices.feeders_text(chosen))
 
@@ -176,6 +178,20 @@ class Chosen(unittest.TestCase):
         self.assertIn('neck_to = ["50 mm", "0 mm", "10 mm"]', choices.feeders_text(chosen))
         with self.assertRaisesRegex(InputError, "aside: neck_to"):
             choices.checked({"risers": [{**riser, "neck_to": [0, 1]}]})
+
+    def test_gating_goes_into_a_file_of_its_own_whatever_the_risers(self):
+        gating = {"name": "gating_1", "gate": [0.06, 0.03, 0.008], "gate_width": 0.02, "gate_height": 0.008, "gate_length": 0.012,
+                  "runner_width": 0.016, "runner_height": 0.014, "sprue": [0.1, 0.06, 0.08], "foot_diameter": 0.012, "top_diameter": 0.02}
+        chosen = choices.checked({"alloy": "pure_tin", "riser": "auto", "gatings": [gating]})
+        self.assertEqual(chosen["gatings"], [gating])
+        words = choices.words(chosen, pathlib.Path("p.step"), pathlib.Path("own"), pathlib.Path("out"))
+        self.assertEqual(words[-3:], ["--riser=auto", "--gating=own/gating.toml", "p.step"])
+        self.assertEqual(toml_edit.parsed(choices.files(chosen)["gating.toml"]), {"gating": [{
+            "name": "gating_1", "gate": ["60 mm", "30 mm", "8 mm"], "gate_size": ["20 mm", "8 mm"], "gate_length": "12 mm",
+            "runner_size": ["16 mm", "14 mm"], "sprue": ["100 mm", "60 mm", "80 mm"], "foot_diameter": "12 mm", "top_diameter": "20 mm"}]})
+        self.assertEqual(choices.gating_text(choices.defaults()).strip(), "")
+        with self.assertRaisesRegex(InputError, "gating_1: runner_width"):
+            choices.checked({"gatings": [{key: value for key, value in gating.items() if key != "runner_width"}]})
 
     def test_what_is_of_another_kind_is_refused(self):
         for wrong in ({"alloy": 3}, {"process": "magic"}, {"fineness": float("nan")}, {"roles": {"a": "king"}}, {"risers": [{"foot": [1, 2]}]},
@@ -261,6 +277,23 @@ class Served(unittest.TestCase):
         status, state = self.post("make", seen=state["edits"])
         self.assertEqual(status, 200, state)
         return self.at_rest()
+
+    def test_what_would_be_made_is_shown_and_goes_with_the_choices(self):
+        self.post("open", name="plate.step")
+        state = self.at_rest()
+        self.assertEqual(self.post("preview", seen=state["edits"])[0], 400, "without an alloy")
+        _, state = self.post("choose", seen=self.get("state")[1]["edits"], choices={**state["choices"], "alloy": "pure_tin"})
+        self.assertIsNone(state["preview"])
+        status, state = self.post("preview", seen=state["edits"])
+        self.assertEqual(status, 200, state)
+        state = self.at_rest()
+        self.assertEqual(state["preview"]["size"], 0.006)
+        self.assertFalse((self.folder / "plate" / "case.toml").exists(), "nothing is made")
+        probe = {"name": "T_1", "point": [0.0, 0.0, 0.0]}
+        _, state = self.post("choose", seen=state["edits"], choices={**state["choices"], "probes": [probe]})
+        self.assertIsNotNone(state["preview"], "a probe changes nothing that it shows")
+        _, state = self.post("choose", seen=state["edits"], choices={**state["choices"], "process": "gravity_die"})
+        self.assertIsNone(state["preview"])
 
     def test_pages_for_the_customer_are_printed_and_served(self):
         self.made()

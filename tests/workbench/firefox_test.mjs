@@ -19,6 +19,8 @@ export async function checkInFirefox(check, server) {
     check("a click in Firefox says what lies there", await until("!document.querySelector('.place-card').hidden && /mm of it below/.test(document.querySelector('.place-card').textContent)"));
     await firefox.run("document.querySelector('#place-probe').click()");
     check("and places a probe", await until("page.solidus.state.choices.probes.length === 1 || (page.solidus.state.case?.document.probe ?? []).length === 1"), await server.state());
+    await firefox.run("document.querySelector('#gating-aside').click()");
+    check("gating is put at the side without a mouse, with fields that have names", await until("page.solidus.state.choices.gatings.length === 1 && document.querySelector('#gating-0-sprue-z')?.ariaLabel === 'gating_1, top of the sprue: z in mm'"), await server.state());
     const said = await firefox.messages(server.address);
     check("nothing was said on Firefox's console", said.length === 0, said);
   } finally {

@@ -25,8 +25,17 @@ const HIGHEST = `(() => {
   return best[best.length >> 1];
 })()`;
 
+const ASIDE = `(() => {
+  const { picture } = solidus.stage, w = picture.canvas.clientWidth, t = picture.canvas.clientHeight, found = [];
+  for (let y = 0.1; y < 0.9; y += 0.02) for (let x = 0.1; x < 0.9; x += 0.02) {
+    const h = picture.pick(x * w, y * t);
+    if (h && h.normal[0] < -0.95) found.push(h.place);
+  }
+  return found[found.length >> 1];
+})()`;
+
 /** Clicks through one part; the answers of its run. */
-async function judge(browser, part) {
+async function judge(browser, part, gated) {
   copyFileSync(join(parts, `${part}.step`), join(folder, `${part}.step`));
   const server = await Server.open(program, folder, `${part}.step`);
   const began = Date.now();
@@ -38,6 +47,13 @@ async function judge(browser, part) {
     await desk.clickPlace(await desk.page.run(HIGHEST));
     await desk.click("#place-riser");
     await desk.until("solidus.state.choices.risers.length === 1");
+    if (gated) {
+      // The side that is seen from the left, in the middle of what is seen of it.
+      await desk.page.run("solidus.stage.picture.look([-1, 0, 0])");
+      await desk.clickPlace(await desk.page.run(ASIDE));
+      await desk.click("#place-gating");
+      await desk.until("solidus.state.choices.gatings.length === 1");
+    }
     await desk.click("#make");
     await desk.until("solidus.state.check?.current && !solidus.state.job", 240);
     check(`${part}: the case is in order, and its riser a body of it`, (await server.state()).check.error === null && await desk.page.run("solidus.stage.picture.bodies.some((b) => b.name === 'riser_1')"), (await server.state()).check);
@@ -46,6 +62,7 @@ async function judge(browser, part) {
     await desk.until("document.querySelector('#report-frame').contentDocument.querySelector('#head .badge')?.textContent === 'finished'");
     const { runs } = await server.state(), seconds = (Date.now() - began) / 1000;
     check(`${part}: the run is judged, with the yield and what freezes last`, runs[0].answers.some((a) => a.name === "yield") && runs[0].answers.some((a) => a.name === "casting: last melt froze"), runs);
+    if (gated) check(`${part}: its gating is a body that is poured with it`, runs[0].answers.some((a) => a.name === "gating_1: last melt froze"), runs);
     check(`${part}: by fewer than thirty clicks in less than five minutes`, desk.clicks < 30 && seconds < 300 * patience, { clicks: desk.clicks, seconds });
     check(`${part}: everything stands in files`, existsSync(join(folder, part, "case.toml")) && existsSync(join(folder, "results", part, "run_1/report.html")));
     check(`${part}: the page does not complain`, desk.page.messages.every((m) => /ERR_CONNECTION_REFUSED/.test(m)), desk.page.messages);
@@ -60,7 +77,7 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const browser = await Browser.open();
 try {
-  for (const part of ["stepped_plate", "dumbbell", "flange"]) await judge(browser, part);
+  for (const part of ["stepped_plate", "dumbbell", "flange"]) await judge(browser, part, part === "flange");
 } catch (error) {
   check("nothing stands in the way", false, error.stack ?? String(error));
 } finally {

@@ -228,6 +228,11 @@ async function ofAPart(server, desk) {
   await desk.type("#riser-0-diameter", "31");
   await desk.until("Math.abs(solidus.state.choices.risers[0].diameter - 0.031) < 1e-9");
   check("its size can be typed", true);
+  await desk.click("#preview");
+  await desk.until("solidus.state.preview && !solidus.state.job", 120);
+  const ahead = (await server.state()).preview;
+  check("mould and elements are seen before they are made", await desk.page.run("/^A mould of .* mm, its walls .*Elements of .* mm in the metal/.test(document.querySelector('#ahead').textContent)")
+    && ahead.walls.length === 6 && top[0].every((v, i) => ahead.low[i] < v) && (await server.state()).case === null && ahead.mould_size > ahead.size, ahead);
   // A side of the plate, seen from there: the plate is halved parallel to it, and gets its gate.
   await desk.page.run("solidus.stage.picture.look([-1, 0, 0])");
   const side = await desk.page.run(`(() => {
@@ -251,6 +256,23 @@ async function ofAPart(server, desk) {
   check("its neck has fields, and no sleeve that would cut it", await desk.page.run("!!document.querySelector('#riser-1-neck') && !!document.querySelector('#riser-1-to-z') && !document.querySelector('#riser-1-sleeve')"));
   await desk.click("#undo");
   await desk.until("solidus.state.choices.risers.length === 1");
+  await desk.clickPlace(side.place);
+  await desk.click("#place-gating");
+  await desk.until("solidus.state.choices.gatings.length === 1");
+  const [gating] = (await server.state()).choices.gatings, area = (Math.PI / 4) * gating.foot_diameter ** 2;
+  check("a sprue stands beside the part with runner and ingate, which ends in the metal", gating.gate[0] > side.place[0] && gating.sprue[0] < top[0][0] - gating.top_diameter / 2
+    && Math.abs(gating.sprue[1] - side.place[1]) < 1e-6 && gating.sprue[2] > top[1][2] && Math.abs(gating.gate_width * gating.gate_height / area - 2) < 0.5, gating);
+  await desk.click("#gating-0-fill");
+  await desk.until("solidus.state.choices.gate?.[2] === solidus.state.choices.gatings[0].sprue[2]");
+  await desk.type("#gating-0-sprue-z", "150");
+  await desk.until("Math.abs(solidus.state.choices.gatings[0].sprue[2] - 0.15) < 1e-9 && Math.abs(solidus.state.choices.gate[2] - 0.15) < 1e-9");
+  check("runs fill the mould through it, and the gate moves with the sprue", true);
+  await desk.click("#undo");
+  await desk.until("Math.abs(solidus.state.choices.gatings[0]?.sprue[2] - 0.15) > 1e-9");
+  await desk.click("#undo");
+  await desk.until("solidus.state.choices.gatings[0] && solidus.state.choices.gate?.[2] !== solidus.state.choices.gatings[0].sprue[2]");
+  await desk.click("#undo");
+  await desk.until("solidus.state.choices.gatings.length === 0");
   await desk.click("#undo");
   await desk.click("#undo");
   await desk.until("solidus.state.choices.gate === null && solidus.state.choices.symmetry === ''");

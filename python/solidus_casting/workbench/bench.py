@@ -11,7 +11,7 @@ from typing import Any
 
 from .. import verbs
 from ..errors import InputError, SolidusError
-from . import choices as chosen, findings, pictures, runs, skin as skins, toml_edit
+from . import choices as chosen, findings, pictures, preview, runs, skin as skins, toml_edit
 from .case_folder import CaseFolder, digest
 from .children import Child
 from .edit import Edit
@@ -44,6 +44,7 @@ class Bench:
         self._job: Job | None = None
         self._jobs = 0  # that were begun
         self._last: Answer | None = None
+        self._preview: Answer | None = None
         self._compared: Answer | None = None
         self._closed = False
 
@@ -73,12 +74,14 @@ class Bench:
         case = self._case
         answer: Answer = {"revision": self._revision, "edits": self._edits, "folder": str(self.place.folder), "job": self._job_state(),
                           "last": self._last, "skins": {name: tag for name, (tag, _) in self._skins.items()}, "compared": self._compared,
-                          "part": None, "case": None, "choices": None, "made": None, "runs": [], "thickest": [], "check": None, "undo": 0, "redo": 0}
+                          "part": None, "case": None, "choices": None, "made": None, "runs": [], "thickest": [], "check": None, "undo": 0, "redo": 0, "preview": None}
         if case is None:
             return answer
         answer |= {"part": None if case.part is None else self.place.name(case.part), "choices": case.choices, "made": case.is_made_of_choices,
                    "runs": runs.all_runs(self._results), "thickest": findings.measured(case.said_of_part) if case.text is not None else [],
                    "undo": case.undoable, "redo": case.redoable, "case": self._case_state(case), "name": self.place.name(case.folder)}
+        if self._preview is not None and self._preview["of"] == preview.of_choices(case.choices):
+            answer["preview"] = self._preview
         check = case.kept_check()
         if check is not None:
             answer["check"] = {**check, "current": check["of"] == digest(case.text)}
@@ -144,7 +147,7 @@ class Bench:
                 if self._case is not None and self._case.folder.is_dir():
                     self._case.hold(self._address)
                 raise Conflict(f"{self.place.name(case.folder)} is open already, at {other}")
-            self._case, self._skins, self._last, self._compared = case, {}, None, None
+            self._case, self._skins, self._last, self._compared, self._preview = case, {}, None, None, None
             self._edits += 1
             self._tell()
             self._start("picture", "reads the part" if case.text is None else "reads the case", self._read_pictures)
@@ -219,13 +222,18 @@ class Bench:
 
     # Jobs
 
-    def make(self, seen: int) -> None:
-        """A case of the part by ``solidus new``, then what ``check`` finds in it."""
+    def make(self, seen: int, only_show: bool = False) -> None:
+        """A case of the part by ``solidus new``, then what ``check`` finds in it; or only what would be made."""
         with self._edit(seen) as case:
             if case.part is None:
                 raise InputError("the part of which this case was made is not next to its folder", "a part that is opened")
-            words = chosen.words(case.choices, case.part, case.own("feeders.toml"), case.own("made"))
-        self._begin("new", "makes the case", lambda job: self._make(job, words))
+            words = chosen.words(case.choices, case.part, case.own("made").parent, case.own("made"))
+            for name, content in chosen.files(case.choices).items():
+                case.own(name).write_text(content, encoding="utf-8")
+        if only_show:
+            self._begin("preview", "looks what it would make", lambda job: self._look_ahead(job, words))
+        else:
+            self._begin("new", "makes the case", lambda job: self._make(job, words))
 
     def check(self) -> None:
         self._text_of(self._open_case())
@@ -347,11 +355,16 @@ class Bench:
             self._skins[name] = (f"{self._revision}", skin.packed())
             self._tell()
 
+    def _look_ahead(self, job: Job, words: list[str]) -> None:
+        choices = self._open_case().choices
+        child = self._call(job, ["new", "--preview", *words], "looks what it would make")
+        with self._changed:
+            self._preview = preview.read(child.output, choices)
+
     def _make(self, job: Job, words: list[str]) -> None:
         """Makes the case aside and puts it into its folder when all has gone well."""
         case = self._open_case()
         shutil.rmtree(made := case.own("made"), ignore_errors=True)
-        case.own("feeders.toml").write_text(chosen.feeders_text(case.choices), encoding="utf-8")
         child = self._call(job, ["new", *words], "makes the case")
         text = (made / "case.toml").read_text(encoding="utf-8")
         for probe in case.choices["probes"]:

@@ -1,4 +1,4 @@
-"""What the page asks for before there is a case: alloy, process, risers, chills, probes. They become the words of ``solidus new``."""
+"""What the page asks for before there is a case: alloy, process, risers, gating, chills, probes. They become the words of ``solidus new``."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ PROCESSES = {"sand": "Sand mould", "shell": "Investment shell", "gravity_die": "
 ROLES = ("casting", "riser", "gating", "mould", "core", "chill", "sleeve", "die", "insulation")
 RISERS = {"none": "None", "auto": "Chosen by rule", "placed": "As placed"}
 _LENGTHS = ("diameter", "height", "neck_diameter", "neck_height", "sleeve")
-_MOST = 200  # risers, chills or probes
+_SECTIONS = ("gate_width", "gate_height", "gate_length", "runner_width", "runner_height", "foot_diameter", "top_diameter")  # of gating
+_MOST = 200  # risers, gatings, chills or probes
 _NOTHING: Choices = {"alloy": "", "process": "sand", "riser": "none", "symmetry": "", "fineness": 1.0, "unit": "", "roles": {}, "risers": [],
-                     "chills": [], "probes": [], "gate": None}
+                     "chills": [], "gatings": [], "probes": [], "gate": None}
 
 
 def defaults() -> Choices:
@@ -43,6 +44,7 @@ def checked(given: Any) -> Choices:
             raise InputError(f"'{role}' is no role of '{body}'", ", ".join(ROLES))
     chosen["risers"] = [_riser(entry, number) for number, entry in enumerate(_entries(chosen["risers"]), 1)]
     chosen["chills"] = [_chill(entry, number) for number, entry in enumerate(_entries(chosen["chills"]), 1)]
+    chosen["gatings"] = [_gating(entry, number) for number, entry in enumerate(_entries(chosen["gatings"]), 1)]
     chosen["probes"] = [_probe(entry, number) for number, entry in enumerate(_entries(chosen["probes"]), 1)]
     chosen["gate"] = None if chosen["gate"] is None else _point(chosen["gate"], "gate")
     return chosen
@@ -83,6 +85,12 @@ def _riser(entry: Mapping[str, Any], number: int) -> dict[str, Any]:
     return {"name": name, "foot": _point(entry.get("foot"), f"{name}: foot"), **sizes, **beside}
 
 
+def _gating(entry: Mapping[str, Any], number: int) -> dict[str, Any]:
+    name = _name(entry, f"gating_{number}")
+    sizes = {key: _number(entry.get(key), f"{name}: {key}") for key in _SECTIONS}
+    return {"name": name, **sizes, **{key: _point(entry.get(key), f"{name}: {key}") for key in ("gate", "sprue")}}
+
+
 def _chill(entry: Mapping[str, Any], number: int) -> dict[str, Any]:
     name = _name(entry, f"chill_{number}")
     return {"name": name, **{corner: _point(entry.get(corner), f"{name}: {corner}") for corner in ("lowest", "highest")}}
@@ -111,7 +119,21 @@ def feeders_text(choices: Choices) -> str:
     return document_text({name: entries for name, entries in (("riser", risers), ("chill", chills)) if entries})
 
 
-def words(choices: Choices, part: Path, feeders: Path, folder: Path) -> list[str]:
+def gating_text(choices: Choices) -> str:
+    """The file of gating that ``new --gating FILE`` reads."""
+    entries = [{"name": g["name"], "gate": place_text(g["gate"]), "gate_size": [millimetres(g["gate_width"]), millimetres(g["gate_height"])],
+                "gate_length": millimetres(g["gate_length"]), "runner_size": [millimetres(g["runner_width"]), millimetres(g["runner_height"])],
+                "sprue": place_text(g["sprue"]), **{key: millimetres(g[key]) for key in ("foot_diameter", "top_diameter")}}
+               for g in choices["gatings"]]
+    return document_text({"gating": entries} if entries else {})
+
+
+def files(choices: Choices) -> dict[str, str]:
+    """The files that ``solidus new`` reads what was placed from, by their names in the folder of the page."""
+    return {"feeders.toml": feeders_text(choices), "gating.toml": gating_text(choices)}
+
+
+def words(choices: Choices, part: Path, own: Path, folder: Path) -> list[str]:
     """The words behind ``solidus new``. With the sign between them: a value may begin with a dash."""
     if not choices["alloy"]:
         raise InputError("what is cast?", "an alloy of the list")
@@ -121,7 +143,9 @@ def words(choices: Choices, part: Path, feeders: Path, folder: Path) -> list[str
     if choices["riser"] == "auto":
         found.append("--riser=auto")
     elif choices["riser"] == "placed" and (choices["risers"] or choices["chills"]):
-        found.append(f"--riser={feeders}")
+        found.append(f"--riser={own / 'feeders.toml'}")
+    if choices["gatings"]:
+        found.append(f"--gating={own / 'gating.toml'}")
     if choices["gate"] is not None:
         found.append("--gate=" + ", ".join(f"{1e3 * value:.6g} mm" for value in choices["gate"]))
     found += [f"--as={body}={role}" for body, role in choices["roles"].items()]

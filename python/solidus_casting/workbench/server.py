@@ -195,6 +195,7 @@ class _Request(BaseHTTPRequestHandler):
             "undo": lambda: bench.go(seen, -1),
             "redo": lambda: bench.go(seen, 1),
             "make": lambda: bench.make(seen),
+            "preview": lambda: bench.make(seen, only_show=True),
             "check": bench.check,
             "run": lambda: bench.run(given.get("physics"), given.get("sure")),
             "compare": lambda: bench.compare(given.get("first"), given.get("second")),

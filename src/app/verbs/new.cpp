@@ -17,14 +17,14 @@ namespace solidus::app {
 namespace {
 
 struct NewArguments {
-  std::string geometry, alloy, folder, symmetry, riser;
+  std::string geometry, alloy, folder, symmetry, riser, gating;
   std::string process = "sand", unit;
   std::vector<std::string> as;  ///< "NAME=role"
   double fineness = 1;
   int shots = 0;      ///< zero: not given
   std::string shell;  ///< thickness, with its unit
   int coats = 0;      ///< zero: not given
-  bool fill = false;
+  bool fill = false, preview = false;
   std::string gate;  ///< "X,Y,Z" with a unit
 };
 
@@ -85,16 +85,22 @@ ExitCode new_case(const NewArguments& arguments) {
   options.shell = shell_of(arguments);
   options.gate = gate_of(arguments.gate);
   options.fill = arguments.fill || options.gate;
+  options.preview = arguments.preview;
   // Options that only some values make sense of are checked before the geometry is read.
   options.riser = arguments.riser == "auto";
   if (!arguments.riser.empty() && !options.riser) options.feeders = arguments.riser;
   if (std::error_code error; !options.feeders.empty() && !std::filesystem::exists(options.feeders, error))
     throw InputError({"--riser"}, fmt::format("'{}' is no riser, and no file", arguments.riser),
                      "--riser auto, or a file of [[riser]] and [[chill]]");
+  options.gating = arguments.gating;
   if (!(options.fineness >= 0.3 && options.fineness <= 5))
     throw InputError({"--fineness"}, fmt::format("{:g} is out of range", options.fineness), "0.3 to 5");
   // All else is chosen by the rules of the process.
   const new_case::NewCaseReport report = new_case::make_new_case(options);
+  if (options.preview) {
+    print(report.text);
+    return k_done;
+  }
   print(fmt::format("{}\nWritten to {}. Next: solidus check {}; solidus run --heat-only {}\n", report.text,
                     report.file.string(), report.file.parent_path().string(),
                     report.file.parent_path().string()));
@@ -125,6 +131,7 @@ class New final : public Verb {
     // Risers, gates and parts of the drawing.
     command().add_option("--riser", a.riser,
                          "auto: put risers on the thick places; or a file of [[riser]] and [[chill]]");
+    command().add_option("--gating", a.gating, "A file of [[gating]]: sprue, runner and ingate");
     command().add_option("--symmetry", a.symmetry, "x, y or z: keep half of the part, below its middle");
     command()
         .add_option("--as", a.as, "What a body of the file is, NAME=ROLE, for example --as Box_2=chill")
@@ -138,6 +145,9 @@ class New final : public Verb {
     command()
         .add_option("--gate", a.gate, "As --fill, with the gate at this place of the skin: \"0, 12, 30 mm\"")
         ->type_name("X,Y,Z");
+    command().add_flag(
+        "--preview", a.preview,
+        "Print what would be made (mould, sizes of elements, risers) as JSON, and write nothing");
     command().add_option("-o,--output", a.folder, "Folder for the case; default the file's name, here");
   }
   ExitCode run() override { return new_case(arguments_); }

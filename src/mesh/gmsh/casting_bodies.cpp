@@ -173,7 +173,7 @@ class PartMaker {
     // Parts come first in the list, so that they keep what overlaps with what is added.
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const auto& volume : parts_[p].volumes) objects.push_back(volume), part_of.push_back(p);
-    // Risers, chills and the block are made in the unit of the geometry.
+    // Risers, gating, chills and the block are made in the unit of the geometry.
     const std::vector<AddedBody> added =
         add_feeders(geometry_, unit_, [&](int volume) { return kept_half(volume); });
     for (const auto& [name, volume] : added) tools.emplace_back(3, volume);
@@ -212,11 +212,12 @@ class PartMaker {
     // A body without a piece lies within another one.
     for (std::size_t p = 0; p < parts_.size(); ++p)
       if (parts_[p].volumes.empty())
-        refuse("nothing is left of the body '" + parts_[p].name + "' next to the others: they overlap",
-               p >= n_parts && p < n_parts + added.size()
-                   ? "the place of [[mesh.riser]] or [[mesh.chill]] outside of the parts; is the unit of the "
-                     "file right?"
-                   : "bodies that touch and do not overlap");
+        refuse(
+            "nothing is left of the body '" + parts_[p].name + "' next to the others: they overlap",
+            p >= n_parts && p < n_parts + added.size()
+                ? "the place of [[mesh.riser]], [[mesh.gating]] or [[mesh.chill]] outside of the parts; is "
+                  "the unit of the file right?"
+                : "bodies that touch and do not overlap");
   }
 
   /// @param pieces   of each volume of the file
@@ -258,13 +259,14 @@ class PartMaker {
       box.low[i] -= margin, box.high[i] += margin;
     }
     box.high[axis] = geometry_.symmetry->at / unit_;
-    if (!(box.high[axis] > box.low[axis])) refuse("a riser or chill lies beyond the plane of symmetry");
+    if (!(box.high[axis] > box.low[axis]))
+      refuse("a riser, gating or chill lies beyond the plane of symmetry");
     const int tool = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0],
                                  box.high[1] - box.low[1], box.high[2] - box.low[2]);
     gmsh::vectorpair kept;
     std::vector<gmsh::vectorpair> map;
     occ::intersect({{3, volume}}, {{3, tool}}, kept, map);
-    if (kept.empty()) refuse("a riser or chill lies beyond the plane of symmetry");
+    if (kept.empty()) refuse("a riser, gating or chill lies beyond the plane of symmetry");
     return kept.front().second;
   }
 

@@ -69,8 +69,9 @@ class FacetedMaker {
 
   void check() const {
     const char* solids = "a STEP, BREP or IGES file, whose solids can be cut";
-    if (!geometry_.risers.empty() || !geometry_.chills.empty())
-      refuse("[[mesh.riser]] and [[mesh.chill]] cannot be joined to skins of triangles", solids);
+    if (!geometry_.risers.empty() || !geometry_.chills.empty() || !geometry_.gatings.empty())
+      refuse("[[mesh.riser]], [[mesh.gating]] and [[mesh.chill]] cannot be joined to skins of triangles",
+             solids);
     if (geometry_.symmetry) refuse("[mesh.symmetry] cannot cut skins of triangles", solids);
     if (geometry_.mould && std::ranges::count(geometry_.mould->walls, 0.0) > 0)
       refuse("a wall of [mesh.mould] has no thickness, but skins of triangles cannot be cut", solids);

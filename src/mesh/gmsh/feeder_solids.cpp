@@ -47,6 +47,28 @@ int riser_solid(const RiserCylinder& r, double unit) {
                 upright(r.foot, wide, top, r.diameter, unit));
 }
 
+/// Ingate, runner and sprue as one solid.
+int gating_solid(const GatingSystem& g, double unit) {
+  const double x = g.gate[0] / unit, y = g.gate[1] / unit, floor = g.floor() / unit;
+  const double along = std::hypot(g.top[0] - g.gate[0], g.top[1] - g.gate[1]) / unit;
+  const double beyond = 0.5 * std::max(g.foot_diameter, g.runner_width) / unit;
+  const double length = g.gate_length / unit;
+  // Ingate and runner are drawn along x and then turned about the upright line through the gate.
+  const int ingate =
+      occ::addBox(x, y - 0.5 * g.gate_width / unit, floor, length, g.gate_width / unit, g.gate_height / unit);
+  const int runner = occ::addBox(x + length, y - 0.5 * g.runner_width / unit, floor, along + beyond - length,
+                                 g.runner_width / unit, g.runner_height / unit);
+  occ::rotate({{3, ingate}, {3, runner}}, x, y, floor, 0, 0, 1,
+              std::atan2(g.top[1] - g.gate[1], g.top[0] - g.gate[0]));
+  // The kernel makes no cone of two equal ends.
+  const double high = g.top[2] / unit - floor, foot = g.foot_diameter / unit / 2,
+               top = g.top_diameter / unit / 2;
+  const int sprue = foot == top
+                        ? upright(g.top, g.floor(), g.top[2], g.top_diameter, unit)
+                        : occ::addCone(g.top[0] / unit, g.top[1] / unit, floor, 0, 0, high, foot, top);
+  return united(united(ingate, runner), sprue);
+}
+
 }  // namespace
 
 std::vector<AddedBody> add_feeders(const CastingGeometry& geometry, double unit,
@@ -54,6 +76,7 @@ std::vector<AddedBody> add_feeders(const CastingGeometry& geometry, double unit,
   std::vector<AddedBody> added;
   // Risers go first, so that they keep the space that they share with sleeves and chills.
   for (const RiserCylinder& r : geometry.risers) added.push_back({r.name, kept(riser_solid(r, unit))});
+  for (const GatingSystem& g : geometry.gatings) added.push_back({g.name, kept(gating_solid(g, unit))});
   // The riser keeps the inside of its sleeve.
   for (const RiserCylinder& r : geometry.risers)
     if (r.sleeve > 0)

@@ -1,5 +1,5 @@
-/// Solids of risers, sleeves and chills, while Gmsh has the geometry of the casting open. In the reader's
-/// process.
+/// Solids of risers, sleeves, chills and gating, while Gmsh has the geometry of the casting open. In the
+/// reader's process.
 #pragma once
 
 #include <gmsh.h>
@@ -18,7 +18,8 @@ struct AddedBody {
   int volume = -1;  ///< its number in the CAD kernel
 };
 
-/// Adds risers, then their sleeves, then chills: of what several of them fill, the first keeps it.
+/// Adds risers, gating, then the sleeves of the risers, then chills: of what several of them fill, the first
+/// keeps it.
 /// @param unit  of the file [m]
 /// @param kept  what of a volume lies in the half that is kept
 std::vector<AddedBody> add_feeders(const CastingGeometry& geometry, double unit,

@@ -1,5 +1,5 @@
 /// Makes a mesh of parts and mould from the geometry of parts: a block of mould around them, risers on them,
-/// chills, half of them; sizes that follow the thickness of walls. Rank 0 only.
+/// chills, gating, half of them; sizes that follow the thickness of walls. Rank 0 only.
 ///
 /// Bodies that touch share the faces between them, and so their nodes (the model splits them where there is
 /// an interface). What is mould within closed cavities of the parts is a core.
@@ -47,6 +47,19 @@ struct ChillBlock {
   Point low{}, high{};  ///< [m]
 };
 
+/// The way of the metal into a part: an upright sprue, a level runner and an ingate. Runner and ingate lie on
+/// one floor and lead straight from the sprue to the part. All in metres.
+struct GatingSystem {
+  std::string name;  ///< of the groups
+  Point gate{};      ///< middle of the end of the ingate, at the part or within it
+  double gate_width = 0, gate_height = 0, gate_length = 0;
+  double runner_width = 0, runner_height = 0;
+  Point top{};                                 ///< middle of the top of the sprue
+  double foot_diameter = 0, top_diameter = 0;  ///< of the sprue
+
+  double floor() const { return gate[2] - 0.5 * gate_height; }
+};
+
 /// Half-space that is cut off: everything above `at` along an axis.
 struct HalfSpace {
   int axis = 0;
@@ -58,6 +71,7 @@ struct CastingGeometry {
   std::optional<MouldBlock> mould;
   std::vector<RiserCylinder> risers;
   std::vector<ChillBlock> chills;
+  std::vector<GatingSystem> gatings;
   std::optional<HalfSpace> symmetry;
   /// Number of the way (meshing_ways.hpp), from zero: mesh_casting() tries them one after the other.
   int attempt = 0;

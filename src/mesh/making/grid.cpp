@@ -65,9 +65,9 @@ std::vector<std::vector<Offset>> cell_pattern(Shape shape) {
   return pattern;
 }
 
-class Lattice {
+class NumberedGrid {
  public:
-  Lattice(const Grid& grid, RawMesh& mesh) : grid_(grid), mesh_(mesh) {
+  NumberedGrid(const Grid& grid, RawMesh& mesh) : grid_(grid), mesh_(mesh) {
     std::size_t size = 1;
     for (std::size_t d = 0; d < grid.axes.size(); ++d) {
       extent_[d] = 2 * static_cast<int>(grid.axes[d].size()) - 1;
@@ -237,7 +237,7 @@ GridAxis graded_axis(double a, double b, double first, double last) {
 void add_grid(RawMesh& mesh, const Grid& grid) {
   assert(static_cast<int>(grid.axes.size()) == dimension(grid.shape));
   mesh.dimension = dimension(grid.shape);
-  Lattice lattice(grid, mesh);
+  NumberedGrid lattice(grid, mesh);
   const auto pattern = cell_pattern(grid.shape);
   // A grid of the plane is one cell deep.
   std::array<int, 3> n_cells{1, 1, 1};

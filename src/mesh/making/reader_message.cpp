@@ -186,6 +186,15 @@ void put_feeders(const CastingGeometry& casting, const PutBytes& put) {
     put_number(chill.low, put);
     put_number(chill.high, put);
   }
+  put_number(casting.gatings.size(), put);
+  for (const GatingSystem& g : casting.gatings) {
+    put_text(g.name, put);
+    put_number(g.gate, put);
+    put_number(g.top, put);
+    put_number(std::array{g.gate_width, g.gate_height, g.gate_length, g.runner_width, g.runner_height,
+                          g.foot_diameter, g.top_diameter},
+               put);
+  }
 }
 
 void take_feeders(const TakeBytes& take, CastingGeometry& casting) {
@@ -203,6 +212,16 @@ void take_feeders(const TakeBytes& take, CastingGeometry& casting) {
     chill.name = take_text(take);
     chill.low = take_number<Point>(take);
     chill.high = take_number<Point>(take);
+  }
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    GatingSystem& gating = casting.gatings.emplace_back();
+    gating.name = take_text(take);
+    gating.gate = take_number<Point>(take);
+    gating.top = take_number<Point>(take);
+    const auto sizes = take_number<std::array<double, 7>>(take);
+    gating.gate_width = sizes[0], gating.gate_height = sizes[1], gating.gate_length = sizes[2];
+    gating.runner_width = sizes[3], gating.runner_height = sizes[4];
+    gating.foot_diameter = sizes[5], gating.top_diameter = sizes[6];
   }
 }
 

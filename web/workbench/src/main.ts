@@ -30,7 +30,7 @@ class Bench implements Desk {
     this.state = state;
     this.endSeen = state.last?.number ?? 0;
     this.stage = new Stage(this);
-    this.setup = new Setup(this, () => (this.stage.which === "part" ? this.stage.picture.bodies : []), () => this.stage.riserOnTop());
+    this.setup = new Setup(this, () => (this.stage.which === "part" ? this.stage.picture.bodies : []), () => this.stage.riserOnTop(), () => this.stage.gatingAside());
     this.judge = new Judge(this, (run) => this.openReport(run), (finding, id) => this.setup.finding(finding, id));
     this.keys = new Keys(this);
     this.keys.again = () => this.panel("keys-form", "", this.keys.render(this.state), true);
@@ -106,7 +106,7 @@ class Bench implements Desk {
     const busy = state.job !== null, s = state;
     this.stage.update(s);
     this.panel("part-panel", JSON.stringify([s.name, s.part, s.choices?.roles, s.choices?.unit, busy, this.stage.which, this.stage.picture.bodies.map((b) => b.name)]), this.setup.part(s));
-    this.panel("casting-panel", JSON.stringify([s.part, s.choices, s.made, busy, s.thickest, s.case?.file, (s.case?.document?.mesh as { riser?: unknown } | undefined)?.riser]), this.setup.casting(s));
+    this.panel("casting-panel", JSON.stringify([s.part, s.choices, s.made, busy, s.thickest, s.preview, s.case?.file, (s.case?.document?.mesh as { riser?: unknown } | undefined)?.riser]), this.setup.casting(s));
     this.panel("check-panel", JSON.stringify([s.case?.digest, s.check, busy]), this.setup.check(s));
     this.panel("run-panel", JSON.stringify([!!s.case, busy, s.check?.current, s.check?.error]), this.judge.run(s));
     this.panel("runs-panel", JSON.stringify([s.runs, busy, s.job?.run]), this.judge.runs(s));

@@ -1,7 +1,7 @@
 /** What is put where one clicks: sizes by the thickness of the metal below, which the user changes afterwards. */
 import { cross, type SkinBody } from "./skin";
 import type { Pick } from "./scene";
-import type { Chill, Place, Probe, Riser } from "./state";
+import type { Chill, Gating, Place, Probe, Riser } from "./state";
 
 /** How thick the metal is below a place of the skin [m]; half of the body's height where the line leaves nowhere. */
 export function thickness(body: SkinBody, at: Pick): number {
@@ -54,6 +54,28 @@ export function riserBeside(body: SkinBody, at: Pick, name: string): Riser {
     name, diameter, foot: from((GAP + 0.5) * diameter, middle - (0.5 * NECK + BELOW) * diameter), height: millimetre((1.5 + 0.5 * NECK + BELOW) * diameter),
     neck_diameter: millimetre(NECK * diameter), neck_to: from(-0.5 * Math.min(deep, diameter), middle),
   };
+}
+
+/** Gating that enters a face which looks to the side. The ingate is half as high as the metal behind the face is thick, so that it freezes before that
+ * metal, and twice as wide as high; runner and ingate have twice the area of the sprue's foot. The sprue stands beside all bodies and ends with the
+ * highest riser, or above the part. */
+export function gatingAt(bodies: SkinBody[], body: SkinBody, at: Pick, risers: Riser[], name: string): Gating {
+  const level = Math.hypot(at.normal[0], at.normal[1]), out: Place = [at.normal[0] / level, at.normal[1] / level, 0];
+  const least = 1e-5 * Math.hypot(...[0, 1, 2].map((i) => body.high[i] - body.low[i]));
+  const deep = cross(body, at.place, out.map((v) => -v) as Place, least)?.far ?? thickness(body, at);
+  const upAndDown = (depth: number) => [1, -1].map((way) => cross(body, at.place.map((v, i) => v - depth * out[i]) as Place, [0, 0, way], 0)?.far ?? deep / 2);
+  const thick = Math.min(deep, upAndDown(deep / 2)[0] + upAndDown(deep / 2)[1]), [up, down] = upAndDown(thick / 2);
+  const gate_height = millimetre(thick / 2), gate_width = 2 * gate_height, side = millimetre(Math.sqrt(gate_height * gate_width));
+  const foot_diameter = millimetre(Math.sqrt((2 * gate_height * gate_width) / Math.PI)), top_diameter = millimetre(1.3 * foot_diameter);
+  // The ingate ends a little within the metal, as faces may be curved, and within its height.
+  const within = thick / 4, z = Math.min(Math.max(at.place[2], at.place[2] - down + gate_height / 2), at.place[2] + up - gate_height / 2);
+  const along = (x: Place) => x[0] * out[0] + x[1] * out[1];
+  const reach = Math.max(...bodies.map((b) => along([out[0] > 0 ? b.high[0] : b.low[0], out[1] > 0 ? b.high[1] : b.low[1], 0]))) - along(at.place);
+  const gate_length = millimetre(within + thick), far = Math.max(within + thick + side + top_diameter, reach + top_diameter);
+  const high = Math.max(...bodies.map((b) => b.high[2])), low = Math.min(...bodies.map((b) => b.low[2]));
+  const top = Math.max(high + Math.max(thick / 2, 0.25 * (high - low)), ...risers.map((r) => r.foot[2] + r.height));
+  const from = (way: number, height: number): Place => [at.place[0] + way * out[0], at.place[1] + way * out[1], height];
+  return { name, gate: from(-within, z), gate_width, gate_height, gate_length, runner_width: side, runner_height: side, sprue: from(far, top), foot_diameter, top_diameter };
 }
 
 /** A block as wide as the metal is thick and half as deep, that reaches a quarter of it into the part. */

@@ -6,7 +6,7 @@ import {
 import { Camera } from "../../report/src/camera";
 import { Painter } from "../../report/src/painter";
 import { coarse, cross, type Crossing, type SkinBody } from "./skin";
-import type { Choices, Place, Riser } from "./state";
+import type { Choices, Gating, Place, Preview, Riser } from "./state";
 
 export interface Pick extends Crossing { body: number }
 export type Shown = "shown" | "ghost" | "hidden";
@@ -156,9 +156,9 @@ export class Picture {
     this.build();
   }
 
-  /** What is placed and not yet in the mesh: risers, chills, probes and the gate. */
-  place(choices: Choices | null): void {
-    const size = this.size(), key = JSON.stringify([choices, this.box()]);
+  /** What is placed and not yet in the mesh: risers, gating, chills, probes and the gate. */
+  place(choices: Choices | null, preview: Preview | null = null): void {
+    const size = this.size(), key = JSON.stringify([choices, preview, this.box()]);
     if (key === this.placedOf) return; // news of other things ask for no picture
     this.placedOf = key;
     empty(this.placed);
@@ -179,10 +179,12 @@ export class Picture {
       }
       if (r.neck_to) this.neck(r, r.neck_to, look(ROLE_COLOURS.riser));
     }
+    for (const g of choices?.gatings ?? []) this.gating(g, look(ROLE_COLOURS.gating));
     for (const c of choices?.riser === "placed" ? choices.chills : []) {
       const d = [0, 1, 2].map((i) => c.highest[i] - c.lowest[i]);
       add(new Mesh(new BoxGeometry(d[0], d[1], d[2]), look(ROLE_COLOURS.chill)), [0, 1, 2].map((i) => (c.highest[i] + c.lowest[i]) / 2) as Place);
     }
+    if (preview) this.ahead(preview, choices?.riser === "auto");
     for (const p of choices?.probes ?? []) add(new Mesh(new SphereGeometry(size / 90, 20, 14), look("#d03a8c")), p.point);
     // The plane of symmetry, in the middle of the part: `new` keeps what lies below it.
     const { low, high } = this.box(), axis = "xyz".indexOf(choices?.symmetry || "-");
@@ -193,6 +195,52 @@ export class Picture {
     if (choices?.gate) add(new Mesh(new SphereGeometry(size / 60, 20, 14), look("#7b3fb5")), choices.gate);
     if (this.bodies.length && this.reachesOut()) this.fit();
     this.request();
+  }
+
+  /** The mould that would be made, as glass with lines as far apart as its elements are long, and the risers of the rule. */
+  private ahead(p: Preview, risers: boolean): void {
+    const d = [0, 1, 2].map((i) => p.high[i] - p.low[i]), middle = new Vector3(...[0, 1, 2].map((i) => (p.high[i] + p.low[i]) / 2));
+    if (p.walls) {
+      const glass = plain(new Mesh(new BoxGeometry(d[0], d[1], d[2]), paint(ROLE_COLOURS.mould, 0.13)));
+      glass.position.copy(middle);
+      const n = d.map((length) => Math.min(60, Math.max(1, Math.round(length / p.mould_size)))), ends: number[] = [];
+      for (const [i, j, k] of [[0, 1, 2], [1, 2, 0], [2, 0, 1]]) // lines along i, on the faces that j and k are normal to
+        for (const [across, other] of [[j, k], [k, j]]) for (let m = 0; m <= n[across]; ++m) for (const side of [p.low[other], p.high[other]])
+          for (const end of [p.low[i], p.high[i]]) {
+            const x = [0, 0, 0];
+            x[i] = end;
+            x[across] = p.low[across] + (m * d[across]) / n[across];
+            x[other] = side;
+            ends.push(...x);
+          }
+      const lines = new BufferGeometry();
+      lines.setAttribute("position", new BufferAttribute(Float32Array.from(ends), 3));
+      this.placed.add(glass, plain(new LineSegments(lines, paint(ROLE_COLOURS.mould, 0.35, false))));
+    }
+    for (const r of risers ? p.risers : []) {
+      const mesh = plain(new Mesh(new CylinderGeometry(r.diameter / 2, r.diameter / 2, r.height, 48), paint(ROLE_COLOURS.riser, 0.75)));
+      mesh.rotateX(Math.PI / 2);
+      mesh.position.set(r.foot[0], r.foot[1], r.foot[2] + r.height / 2);
+      this.placed.add(mesh);
+    }
+  }
+
+  /** Ingate and runner, drawn along x and turned about the upright line through the gate, and the sprue. */
+  private gating(g: Gating, look: Material): void {
+    const floor = g.gate[2] - g.gate_height / 2, dx = g.sprue[0] - g.gate[0], dy = g.sprue[1] - g.gate[1];
+    const along = Math.hypot(dx, dy) + Math.max(g.foot_diameter, g.runner_width) / 2, high = g.sprue[2] - floor;
+    const bar = (from: number, to: number, wide: number, tall: number) => {
+      const mesh = plain(new Mesh(new BoxGeometry(Math.max(to - from, 1e-6), wide, tall).translate((from + to) / 2, 0, tall / 2), look));
+      mesh.rotation.z = Math.atan2(dy, dx);
+      mesh.position.set(g.gate[0], g.gate[1], floor);
+      this.placed.add(mesh);
+    };
+    bar(0, g.gate_length, g.gate_width, g.gate_height);
+    bar(g.gate_length, along, g.runner_width, g.runner_height);
+    const sprue = plain(new Mesh(new CylinderGeometry(g.top_diameter / 2, g.foot_diameter / 2, Math.max(high, 1e-6), 48), look));
+    sprue.rotateX(Math.PI / 2);
+    sprue.position.set(g.sprue[0], g.sprue[1], floor + high / 2);
+    this.placed.add(sprue);
   }
 
   /** The neck of a riser next to the part: from its axis to a place of the part, level as far as the riser has that height. */

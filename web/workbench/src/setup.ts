@@ -2,11 +2,13 @@
 import { byId, h } from "../../report/src/dom";
 import { conditionList, metres } from "./conditions";
 import { bodiesOf, roleByName } from "./stage";
-import type { Chill, Choices, Desk, Finding, Place, Probe, Riser, State } from "./state";
+import type { Chill, Choices, Desk, Finding, Gating, Place, Preview, Probe, Riser, State } from "./state";
 import { get } from "./state";
 import type { SkinBody } from "./skin";
 
 type Children = (Node | string | null | false)[];
+type Row = (title: string, close: HTMLElement, ...rows: [string, HTMLElement[]][]) => HTMLElement;
+type Point = (id: string, name: string, at: Place, change: (at: Place) => void) => HTMLElement[];
 const mm = (v: number) => String(Math.round(v * 1e5) / 100);
 
 /** A label with a field below it. */
@@ -34,8 +36,16 @@ function risersOf(state: State): Riser[] {
   return found.filter((r) => [...r.foot, ...(r.neck_to ?? []), ...Object.values(r).filter((v) => typeof v === "number")].every((v) => Number.isFinite(v)));
 }
 
+/** A preview in words. */
+function ahead(p: Preview): string {
+  const side = (v: number) => String(+(1e3 * v).toPrecision(3)), box = [0, 1, 2].map((i) => side(p.high[i] - p.low[i])).join(" x "), w = (p.walls ?? []).map(side);
+  const mould = p.walls === null ? "The file holds the mould." : p.shell ? `A shell of ${side(p.shell)} mm.`
+    : `A mould of ${box} mm, its walls ${w.every((v) => v === w[0]) ? `${w[0]} mm` : `${w.join(", ")} mm (lowest and highest x, y, z; 0: open, or the plane of symmetry)`}.`;
+  return `${mould} Elements of ${side(p.size)} mm in the metal, ${side(p.smallest)} mm in its thin walls${p.walls === null ? "" : ` and ${side(p.mould_size)} mm in the mould`}.`;
+}
+
 export class Setup {
-  constructor(private readonly desk: Desk, private readonly partBodies: () => SkinBody[], private readonly riserOnTop: () => void) {}
+  constructor(private readonly desk: Desk, private readonly partBodies: () => SkinBody[], private readonly riserOnTop: () => void, private readonly gatingAside: () => void) {}
 
   /** 1: which part, and what its bodies are. */
   part(state: State): Children {
@@ -80,12 +90,15 @@ export class Setup {
       c.riser === "placed" ? h("button", { class: "link", id: "riser-on-top", disabled: busy, click: this.riserOnTop }, "One more riser, on the highest place") : null,
       c.riser === "auto" && state.made && risersOf(state).length ? h("button", { class: "link", id: "take-risers", disabled: busy, click: () => void this.desk.choose({ riser: "placed", risers: risersOf(state) }) },
         "Change the risers that the rule has chosen") : null,
+      h("button", { class: "link", id: "gating-aside", disabled: busy, click: this.gatingAside }, "Gating, at the side of largest x"),
       h("div", { class: "two" },
         field("Symmetry", select("symmetry", [["", "none"], ["x", "half, below the middle in x"], ["y", "half, below the middle in y"], ["z", "half, below the middle in z"]], c.symmetry, (symmetry) => void this.desk.choose({ symmetry }), busy)),
         field("Elements", select("fineness", fine, String(c.fineness), (v) => void this.desk.choose({ fineness: +v }), busy))),
       ...this.placed(c, busy),
       state.thickest.length ? h("details", { open: true }, h("summary", {}, "Hot spots: the thickest places of the part"),
         h("ul", { class: "findings", id: "thickest" }, ...state.thickest.map((f, n) => this.finding(f, `thick-${n}`)))) : null,
+      state.preview ? h("p", { class: "hint", id: "ahead" }, ahead(state.preview)) : null,
+      h("button", { id: "preview", disabled: busy || !c.alloy, click: () => void this.desk.ask("preview") }, "Show mould and elements"), " ",
       h("button", { class: `main${state.made === true ? "" : " on"}`, id: "make", disabled: busy || !c.alloy, click: () => void this.desk.ask("make") }, state.case ? "Make the case again" : "Make the case"),
       state.case && state.made === false ? h("p", { class: "hint" }, "Something was chosen since the case was made. Making it again replaces the case file; Undo brings the old one back.") : null,
       state.case && state.made !== false ? h("p", { class: "hint" }, `Written to ${state.case.file}; what is changed there by hand is shown here.`) : null,
@@ -126,10 +139,34 @@ export class Setup {
           ["lowest [mm]", point(`chill-${n}-low`, k.name, k.lowest, (lowest) => put({ lowest }))], ["highest [mm]", point(`chill-${n}-high`, k.name, k.highest, (highest) => put({ highest }))]));
       });
     }
+    c.gatings.forEach((g, n) => out.push(this.gatingRow(c, g, n, busy, row, point, gone)));
     c.probes.forEach((p, n) => out.push(row(`${p.name}, a probe`, gone(`probe-${n}-gone`, p.name, () => probes(c.probes.filter((_, k) => k !== n))),
       ["place [mm]", point(`probe-${n}`, p.name, p.point, (at) => probes(c.probes.map((old, k) => (k === n ? { ...old, point: at } : old))))])));
-    if (c.gate) out.push(row("Gate, through which runs fill the mould first", gone("gate-gone", "the gate", () => void this.desk.choose({ gate: null })), ["place [mm]", point("gate", "gate", c.gate, (gate) => void this.desk.choose({ gate }))]));
+    if (c.gate && !c.gatings.some((g) => c.gate!.every((v, i) => Math.abs(v - g.sprue[i]) < 1e-9))) out.push(row("Gate, through which runs fill the mould first", gone("gate-gone", "the gate", () => void this.desk.choose({ gate: null })), ["place [mm]", point("gate", "gate", c.gate, (gate) => void this.desk.choose({ gate }))]));
     return out;
+  }
+
+  /** The fields of a sprue with its runner and ingate, and whether the mould is filled through it. */
+  private gatingRow(c: Choices, g: Gating, n: number, busy: boolean, row: Row, point: Point, gone: (id: string, name: string, act: () => void) => HTMLElement): HTMLElement {
+    const is = (at: Place | null) => at !== null && at.every((v, i) => Math.abs(v - g.sprue[i]) < 1e-9), filled = is(c.gate);
+    // A gate at the top of the sprue goes where the sprue goes.
+    const put = (change: Partial<Gating>) => {
+      const next = { ...g, ...change };
+      void this.desk.choose({ gatings: c.gatings.map((old, k) => (k === n ? next : old)), ...(filled ? { gate: next.sprue } : {}) });
+    };
+    const size = (key: "gate_width" | "gate_height" | "gate_length" | "runner_width" | "runner_height" | "foot_diameter" | "top_diameter", name: string) =>
+      number(`gating-${n}-${key}`, `${g.name}: ${name} in mm`, g[key], (value) => put({ [key]: value }), busy);
+    const area = (Math.PI / 4) * g.foot_diameter ** 2, ratio = (a: number) => (a / area).toFixed(1);
+    const through = h("input", { type: "checkbox", id: `gating-${n}-fill`, checked: filled, disabled: busy });
+    through.addEventListener("change", () => void this.desk.choose({ gate: through.checked ? g.sprue : null }));
+    return row(`${g.name}, 1 : ${ratio(g.runner_width * g.runner_height)} : ${ratio(g.gate_width * g.gate_height)}`,
+      gone(`gating-${n}-gone`, g.name, () => void this.desk.choose({ gatings: c.gatings.filter((_, k) => k !== n), ...(filled ? { gate: null } : {}) })),
+      ["ingate ends at [mm]", point(`gating-${n}-gate`, `${g.name}, end of the ingate`, g.gate, (gate) => put({ gate }))],
+      ["ingate wide, high, long [mm]", [size("gate_width", "width of the ingate"), size("gate_height", "height of the ingate"), size("gate_length", "length of the ingate")]],
+      ["runner wide, high [mm]", [size("runner_width", "width of the runner"), size("runner_height", "height of the runner")]],
+      ["top of the sprue [mm]", point(`gating-${n}-sprue`, `${g.name}, top of the sprue`, g.sprue, (sprue) => put({ sprue }))],
+      ["sprue wide at foot, top [mm]", [size("foot_diameter", "diameter of the sprue at its foot"), size("top_diameter", "diameter of the sprue at its top")]],
+      ["filling", [h("label", {}, through, " fill the mould through it first")]]);
   }
 
   /** 3: bodies of the case with their materials, and what check finds. */

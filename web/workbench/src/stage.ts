@@ -3,9 +3,9 @@ import { byId, h, svg } from "../../report/src/dom";
 import { Vector3 } from "three";
 import { Picture, type Pick, type Shown } from "./scene";
 import { addCondition, KINDS, placedInCase, refusal } from "./conditions";
-import { chillAt, freeName, looksAside, looksUp, probeAt, riserAt, riserBeside, thickness } from "./placing";
+import { chillAt, freeName, gatingAt, looksAside, looksUp, probeAt, riserAt, riserBeside, thickness } from "./placing";
 import { bytes, type Desk, type Finding, type Place, type State } from "./state";
-import { unpack } from "./skin";
+import { cross, unpack, type SkinBody } from "./skin";
 
 const mm = (v: number) => `${Math.round(v * 1e4) / 10}`;
 const placeText = (p: Place) => `(${p.map(mm).join(", ")}) mm`;
@@ -86,7 +86,7 @@ export class Stage {
     const roles = this.roles(), shown: Record<string, Shown> = {};
     for (const { name } of this.picture.bodies) shown[name] = this.shown[name] ?? (["mould", "die"].includes(roles[name]) ? "ghost" : "shown");
     this.picture.dress(roles, shown, this.lit);
-    this.picture.place(this.which === "part" ? this.desk.state.choices : null);
+    this.picture.place(this.which === "part" ? this.desk.state.choices : null, this.which === "part" ? this.desk.state.preview : null);
   }
 
   /** Which skin, and how each body is shown. */
@@ -223,6 +223,7 @@ export class Stage {
             ? button("beside", "Riser next to it", onPart, () => void this.desk.choose({ riser: "placed", risers: [...now().risers, riserBeside(body, hit, freeName("riser", now().risers))] }))
             : button("riser", "Riser here", onPart || (looksUp(hit) ? "" : "a riser stands upright: click a face that looks up, or to the side"), () =>
               void this.desk.choose({ riser: "placed", risers: [...now().risers, riserAt(body, hit, freeName("riser", now().risers))] })),
+          button("gating", "Gating here", onPart || (looksAside(hit) ? "" : "a runner is level: click a face that looks to the side"), () => this.gating(body, hit)),
           button("chill", "Chill here", onPart, () => void this.desk.choose({ riser: "placed", chills: [...now().chills, chillAt(body, hit, freeName("chill", now().chills))] })),
           button("probe", "Probe inside", onPart, () => this.probe(body, hit)),
           this.halve(hit, button, onPart),
@@ -257,10 +258,30 @@ export class Stage {
     const point = at.point.map((v) => `${Math.round(v * 1e7) / 1e4} mm`);
     void this.desk.ask("add", { sections: [{ path: ["probe"], values: { name: at.name, kind: "point", field: "temperature", unit: "degC", point } }] });
   }
+  private gating(body: SkinBody, hit: Pick): void {
+    const c = this.desk.state.choices!;
+    void this.desk.choose({ gatings: [...c.gatings, gatingAt(this.picture.bodies, body, hit, c.riser === "placed" ? c.risers : [], freeName("gating", c.gatings))] });
+  }
+  /** Gating at the middle of the side of largest x, for hands on a keyboard. */
+  gatingAside(): void {
+    const body = this.ofPart();
+    if (!body) return;
+    const [, y, z] = [0, 1, 2].map((i) => (body.low[i] + body.high[i]) / 2), far = body.high[0] - body.low[0];
+    const hit = cross(body, [body.high[0] + far, y, z], [-1, 0, 0], 0);
+    if (!hit) return this.desk.tell("The part has no metal at the middle of its side: click a face.", true);
+    this.gating(body, { ...hit, normal: [1, 0, 0], body: this.picture.bodies.indexOf(body) });
+  }
+  /** The casting of the picture of the part; where another picture is shown that is told. */
+  private ofPart(): SkinBody | undefined {
+    const c = this.desk.state.choices, body = this.picture.bodies.find((b) => (c?.roles[b.name] || roleByName(b.name)) === "casting") ?? this.picture.bodies[0];
+    if (c && body && this.which === "part") return body;
+    this.desk.tell("Turn to the picture of the part first.", true);
+    return undefined;
+  }
   /** A riser on the highest place of the part, for hands on a keyboard. */
   riserOnTop(): void {
-    const c = this.desk.state.choices, body = this.picture.bodies.find((b) => (c?.roles[b.name] || roleByName(b.name)) === "casting") ?? this.picture.bodies[0];
-    if (!c || !body || this.which !== "part") return this.desk.tell("Turn to the picture of the part first.", true);
+    const c = this.desk.state.choices, body = this.ofPart();
+    if (!c || !body) return;
     let top = 0;
     for (let v = 2; v < body.position.length; v += 3) if (body.position[v] > body.position[3 * top + 2]) top = (v - 2) / 3;
     const place = [0, 1, 2].map((i) => body.position[3 * top + i]) as Place;
@@ -281,6 +302,7 @@ export class Stage {
         for (const r of c.risers) marks.push({ at: [r.foot[0], r.foot[1], r.foot[2] + r.height], label: r.name, kind: "name" });
         for (const k of c.chills) marks.push({ at: [0, 1, 2].map((i) => (k.lowest[i] + k.highest[i]) / 2) as Place, label: k.name, kind: "name" });
       }
+      for (const g of c.gatings) marks.push({ at: g.sprue, label: g.name, kind: "name" });
       for (const p of c.probes) marks.push({ at: p.point, label: p.name, kind: "name" });
       if (c.gate) marks.push({ at: c.gate, label: "gate", kind: "name" });
     }

@@ -5,14 +5,20 @@ export type Key = string | number;
 
 export interface Riser { name: string; foot: Place; diameter: number; height: number; neck_diameter?: number; neck_height?: number; neck_to?: Place; sleeve?: number }
 export interface Chill { name: string; lowest: Place; highest: Place }
+/** Sprue, runner and ingate in one body: `gate` is the middle of the ingate's end, `sprue` that of the sprue's top. */
+export interface Gating {
+  name: string; gate: Place; gate_width: number; gate_height: number; gate_length: number; runner_width: number; runner_height: number;
+  sprue: Place; foot_diameter: number; top_diameter: number;
+}
 export interface Probe { name: string; point: Place }
 
 /** What `solidus new` is given. Lengths in metres. */
 export interface Choices {
   alloy: string; process: string; riser: "none" | "auto" | "placed"; symmetry: string; fineness: number; unit: string;
-  roles: Record<string, string>; risers: Riser[]; chills: Chill[]; probes: Probe[]; gate: Place | null;
+  roles: Record<string, string>; risers: Riser[]; chills: Chill[]; gatings: Gating[]; probes: Probe[]; gate: Place | null;
 }
 
+export interface Preview { low: Place; high: Place; walls: number[] | null; shell: number; size: number; smallest: number; mould_size: number; risers: Riser[] }
 export interface Finding { severity: "error" | "warning" | "note"; message: string; places: Place[]; bodies: string[]; line?: number; section?: string }
 export interface Answer { name: string; unit: string; value: number; error: number | null; at: Place | null }
 export interface RunState { name: string; outcome: string; answers: Answer[]; warnings: Finding[]; report: boolean; printed: string | null; time?: number; steps?: number }
@@ -25,6 +31,8 @@ export interface State {
   revision: number; edits: number; folder: string; name?: string; part: string | null;
   case: { file: string; text: string; document: Document | null; error: string | null; digest: string } | null;
   choices: Choices | null; made: boolean | null; runs: RunState[]; thickest: Finding[]; undo: number; redo: number;
+  /** What `solidus new` would make of the present choices, where it was asked: corners of the mould, its walls, sizes of elements, risers. */
+  preview: Preview | null;
   check: { of: string; text: string; findings: Finding[]; error: string | null; current: boolean } | null;
   skins: Record<string, string>; job: JobState | null;
   last: { what: string; ok: boolean; message: string; findings: Finding[]; stopped?: boolean; number: number; run: string | null } | null;
