@@ -116,13 +116,6 @@ struct MeshCoatSpec {
   SourceLocation where;
 };
 
-/// The half of the geometry that is kept.
-struct SymmetrySpec {
-  std::string axis;  ///< "x", "y" or "z", normal to the plane
-  double at = 0;     ///< the coordinate of the plane [m]; the lower half is kept
-  SourceLocation where;
-};
-
 /// Layers of a body's elements on one of its surfaces (mesh/making/wall_layers.hpp).
 struct MeshLayersSpec {
   std::string name;

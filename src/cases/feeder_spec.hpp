@@ -1,5 +1,5 @@
-/// Risers, gating and chills that a case file puts onto the geometry of a casting
-/// (mesh/making/casting_geometry.hpp). All lengths in metres.
+/// Risers, gating and chills that a case file puts onto the geometry of a casting, and the half of it that is
+/// kept (mesh/making/casting_geometry.hpp). All lengths in metres.
 #pragma once
 
 #include <optional>
@@ -38,6 +38,13 @@ struct GatingBlockSpec {
   std::vector<double> runner_size;             ///< width and height of the runner
   std::vector<double> sprue;                   ///< middle of the top of the sprue
   double foot_diameter = 0, top_diameter = 0;  ///< of the sprue
+  SourceLocation where;
+};
+
+/// The half of the geometry that is kept.
+struct SymmetrySpec {
+  std::string axis;  ///< "x", "y" or "z", normal to the plane
+  double at = 0;     ///< the coordinate of the plane [m]; the lower half is kept
   SourceLocation where;
 };
 
