@@ -208,7 +208,7 @@ const wheels = solidus("run", "--heat-only", resolve("cases/wheel_in_die"), "-o"
 check("two shots into a die run", wheels.code === 0, wheels.text.slice(-400));
 
 // The command.
-for (const [args, page] of [[["pores"], "pores/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
+for (const [args, page] of [[["pores"], "pores/report.html"], [["pot"], "pot/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
   const made = solidus("report", ...args);
   check(`report ${args.join(" ")} says where the page is`, made.code === 0 && made.text.includes(page), made.text);
 }

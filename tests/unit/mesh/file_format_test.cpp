@@ -26,8 +26,7 @@ TEST(FileFormats, AreKeptFromGmshUnlessItKnowsThem) {
   std::set<std::string_view> by_gmsh;
   for (const FileFormat& format : file_formats())
     if (format.by_gmsh) by_gmsh.insert(format.name);
-  EXPECT_EQ(by_gmsh,
-            (std::set<std::string_view>{"BREP", "Gmsh mesh", "Gmsh script", "IGES", "STEP", "VTK"}));
+  EXPECT_EQ(by_gmsh, (std::set<std::string_view>{"BREP", "Gmsh mesh", "Gmsh script", "IGES", "STEP", "VTK"}));
 }
 
 TEST(FileFormats, AreRefusedWhereAnEndingIsTakenOrNothingReadsThem) {
