@@ -106,10 +106,11 @@ void write_feeder_solids(const Draft& draft, const std::filesystem::path& file) 
   if (path.find_first_of("\"\\\n") != std::string::npos)
     throw InputError({path}, "the solids of risers cannot be written to a path with such signs",
                      "a folder without quotes and backslashes: -o FOLDER");
-  // The reader runs the script, which saves the solids. They are meshed as coarsely as can be, as a reader
-  // answers with a mesh.
+  // The reader runs the script, which saves the solids. As a reader answers with a mesh, the script leaves a
+  // cube for that in their place, which any size of elements suits.
   const std::filesystem::path source = path + ".geo";
-  std::ofstream(source) << script.text() << "Save \"" << path << "\";\n";
+  std::ofstream(source) << script.text() << "Save \"" << path << "\";\n"
+                        << "Recursive Delete { Volume{:}; }\nBox(1) = {0, 0, 0, 1, 1, 1};\n";
   mesh::MeshSource asked{source.string(), 1e-3, 1};
   asked.trust_script = true;
   try {

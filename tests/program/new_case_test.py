@@ -154,7 +154,7 @@ class NewCase(ProgramTest):
         half = 1e-9 * math.pi / 8 * diameter**2 * height
         self.assertTrue(0.85 * half < self.volumes()["riser"] < half)
         result = solidus("new", part, *ALLOY, "--symmetry", "z", "--riser", "auto", "-o", "refused", cwd=self.folder)
-        self.assertIn("with a riser on top nothing is symmetric in z", result.stderr)
+        self.assertIn("with a riser or a sprue on top nothing is symmetric in z", result.stderr)
 
     def test_a_riser_is_cooled_by_the_mould_whose_surface_it_shares_with_its_casting(self):
         self.new(str(SOURCES / "cases/bracket_from_step/bracket.step"), "--riser", "auto", "--fineness", "0.7")

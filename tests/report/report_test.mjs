@@ -156,44 +156,7 @@ uz = "0 mm"
 `).join("");
 writeFileSync(join(folder, "pores.toml"), box);
 
-const pot = `title = "A pot in its die"
-[analysis]
-kind = "axisymmetric"
-physics = "thermomechanical"
-[mesh]
-shape = "cylinder_in_mould"
-[mesh.cylinder_in_mould]
-radius = "15 mm"
-height = "30 mm"
-mould_wall = "15 mm"
-mould_bottom = "15 mm"
-mould_height = "45 mm"
-element_size = "5 mm"
-mould_element_size = "8 mm"
-[time]
-until = "solid"
-end = "100 s"
-step = "0.5 s"
-adaptive = true
-[[body]]
-name = "part"
-role = "casting"
-material = "aluminium_alsi7mg"
-initial_temperature = "680 degC"
-[[body]]
-name = "mould"
-role = "mould"
-material = "h13_tool_steel"
-initial_temperature = "200 degC"
-[[interface]]
-bodies = "all"
-[[mechanical_condition]]
-name = "floor"
-group = "mould_bottom"
-kind = "displacement"
-uz = "0 mm"
-`;
-writeFileSync(join(folder, "pot.toml"), pot);
+writeFileSync(join(folder, "pot.toml"), readFileSync("tests/report/pot.toml"));
 
 for (const [name, ...set] of [["block"], ["ring"], ["pores"], ["pot"]]) {
   const run = solidus("run", `${name}.toml`, "-o", name, "--no-progress", ...set);
