@@ -54,7 +54,7 @@ std::string preview_text(const Draft& draft, const PartMeasures& part) {
         fmt::format("[{:.9g}, {:.9g}, {:.9g}, {:.9g}, {:.9g}, {:.9g}]", w[0], w[1], w[2], w[3], w[4], w[5]);
     for (std::size_t i = 0; i < 3; ++i) box.low[i] -= w[2 * i], box.high[i] += w[2 * i + 1];
   }
-  // Only what the page draws of a riser: its cylinder, and a neck to the side.
+  // The page draws the cylinder of a riser alone.
   std::string risers;
   for (const DraftRiser& r : draft.risers)
     risers += fmt::format("{}{{\"foot\": {}, \"diameter\": {:.9g}, \"height\": {:.9g}}}",

@@ -1,4 +1,5 @@
-/// What `solidus new` would make, before anything is meshed: for a page that shows it.
+/// A description of the case that `solidus new` is about to make, before anything is meshed, for a page that
+/// shows it.
 #pragma once
 
 #include <string>

@@ -175,7 +175,7 @@ TEST(Feeders, ANewCaseHasItsGatingAsAPouredBodyThatIsOpenAtItsTop) {
       << "[[gating]]\nname = \"gating_1\"\ngate = [\"58 mm\", \"30 mm\", \"8 mm\"]\n"
          "gate_size = [\"20 mm\", \"8 mm\"]\ngate_length = \"14 mm\"\nrunner_size = [\"16 mm\", \"16 mm\"]\n"
          "sprue = [\"100 mm\", \"30 mm\", \"80 mm\"]\nfoot_diameter = \"12 mm\"\ntop_diameter = \"20 mm\"\n";
-  // What would be made: a mould that ends with the sprue, 80 mm high, and has walls on its other sides.
+  // The mould ends at the top of the sprue, 80 mm high, and has walls on its other sides.
   options.preview = true;
   const std::string ahead = solidus::new_case::make_new_case(options).text;
   std::smatch found;
