@@ -75,7 +75,7 @@ void check_periodic(const CaseSpec& spec, const CycleSpec& cycle) {
                        "periodic = \"1 K\", say, or no search");
     return;
   }
-  // Only temperatures are searched for, at the end of the run, and of bodies that stay through the cycle.
+  // The search is for temperatures without inertia, in a cycle at the end of the run with a body that stays.
   if (!spec.has_heat())
     throw InputError(
         cycle.where,

@@ -41,7 +41,7 @@ mechanics::MechanicalReport mechanical_pass(const Phases& phases, const Mechanic
                                             int* augmentations) {
   const profile::Part part("mechanics");
   const double start = processes::wall_time();
-  // Augmentations of earlier passes of the step count along, so that a step has one limit.
+  // Augmentations of earlier passes count too, so that a step has one limit for all of them.
   const int earlier = augmentations != nullptr ? *augmentations : 0;
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.mechanics, pass);

@@ -148,7 +148,7 @@ StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, do
 std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State& trial, double time,
                                                          double dt, bool extrapolated, ContactWork& contact,
                                                          mechanics::StepDeformation& deformation) {
-  // The first stage, backward Euler over its share of the step.
+  // The first stage is backward Euler over its share of the step.
   const double first_dt = material::k_sdirk_share * dt, middle = time - dt + first_dt;
   const std::vector<double> share = plateau_share(phases_, old.heat);
   const mechanics::MechanicalPass to_middle{
@@ -161,8 +161,8 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
   const StepEffort of_first =
       stage(old.mechanics, old.contacts, coherency, to_middle, first, deformation, &of_middle);
 
-  // The second stage starts from the extrapolated first one, if that may be; otherwise it is backward Euler
-  // over the rest.
+  // The second stage starts from the extrapolated first one, if temperatures stay in their range; otherwise
+  // it is backward Euler over the rest of the step.
   extrapolated =
       extrapolated && thermal.watch().may_extrapolate(old.heat, first.heat, heat::last_loads(time, dt, true));
   // By extrapolation the second stage starts at Y_n + carried (Y_1 − Y_n).
@@ -185,11 +185,11 @@ std::optional<StepEffort> SimultaneousScheme::two_stages(const State& old, State
     effort = stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end,
                    trial, deformation, &of_end);
   } catch (const StepRejected&) {
-    if (extrapolated) return std::nullopt;  // it may set out from a state that has no equilibrium nearby
+    if (extrapolated) return std::nullopt;  // the extrapolated state may have no equilibrium nearby
     throw;
   }
   if (extrapolated && thermal.watch().overshoots(trial.heat)) return std::nullopt;
-  // The second stage starts from a plastic strain that goes on as in the first, and flow does not go back.
+  // The extrapolation continues the plastic strain of the first stage: the second stage must not flow back.
   if (extrapolated && effort.energy.plastic_work < k_flow_falls * of_first.energy.plastic_work)
     return std::nullopt;
   // Energies and effort of both stages add up.

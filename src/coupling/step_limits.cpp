@@ -26,6 +26,8 @@ constexpr double k_tolerated_worst_node = 12;
 }  // namespace
 
 Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
+  // Each measure is compared with its limit. The limit that allows the smallest next step sets the factor and
+  // is named; a step is repeated where a measure exceeds its limit by more than its tolerated ratio.
   Strictest result;
   result.factor = std::numeric_limits<double>::infinity();
   const auto look = [&](const char* name, const char* unit, double value, double allowed, double order,

@@ -13,7 +13,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
   mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
   n_nodes_ = g.n_nodes;
   dim_ = g.dim;
-  // Sizes and arrays: all entries lie [batch][node of the element], in lanes.
+  // Sizes come first, then arrays with their entries ordered [batch][node of the element], in lanes.
   axisymmetric_ = kind == AnalysisKind::axisymmetric;
   n_elements_ = g.n_elements;
   n_batches_ = g.n_batches;
@@ -23,7 +23,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::ElementBlock& b
   hoop_.assign(axisymmetric_ ? entries : 0, Lane(0.0));
   share_.assign(entries, Lane(0.0));
   volume_.assign(as_size(n_batches_), Lane(0.0));
-  // Gradients, hoop terms and shape functions as means over each element, by volume.
+  // Gradients, hoop terms and shape functions are averaged over each element, weighted by volume.
   for (Index batch = 0; batch < n_batches_; ++batch) {
     Lane volume(0.0);
     for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(batch, q);

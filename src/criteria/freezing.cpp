@@ -204,12 +204,12 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
   PatchGradient result;
   mesh::Point all{}, behind{};
   double volume = 0, volume_behind = 0;
-  // Every element of the node's own body: its gradient weighs by its volume.
+  // Gradients of all elements of the node's own body are summed, weighted by their volumes.
   for (const Patches::Element e : patches_.around(who.node)) {
     if (patches_.body(e) != who.body) continue;
     std::array<double, k_most_nodes> values{};
     const std::span<const Index> nodes = patches_.nodes(e);
-    // Behind the front: of nodes that it has passed before, and is passing now; no melt.
+    // An element is behind the front if the front has passed a node of it and no node is melt.
     bool some_passed = false, melt = false;
     double coldest = level, since = HUGE_VAL;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
@@ -223,15 +223,15 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
       coldest = std::min(coldest, values[a]);
     }
     const bool is_behind = some_passed && !melt;
-    // Recovered gradients of waiting nodes count elements behind the front alone.
+    // The gradient of a node that still waits for its passage counts only elements behind the front.
     if (only_behind && !is_behind) continue;
     const Patches::Gradient g = patches_.gradient(e, std::span(values).first(nodes.size()));
     volume += g.volume;
     result.all_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) all[k] += g.volume * g.value[k];
     if (!is_behind) continue;
-    // Of those behind: how deep the coldest node lies below the level, and since when the front is
-    // past.
+    // Elements behind the front also give the largest drop of a node below the level, and the time since
+    // which the front has passed.
     result.has_behind = true;
     result.drop = std::max(result.drop, level - coldest);
     result.since = std::min(result.since, since);
@@ -239,8 +239,8 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
     result.behind_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) behind[k] += g.volume * g.value[k];
   }
-  // Means by volume; the mean of lengths is kept as well as the length of the mean, which cancels where
-  // fronts meet.
+  // The sums become means. The mean of the lengths is stored in addition to the length of the mean, which
+  // vanishes where fronts meet.
   if (volume > 0) {
     result.all = length(all) / volume;
     result.all_magnitude /= volume;

@@ -113,7 +113,7 @@ void StepSensitivity::advance_stage(const Stage& stage, const ThermalState& old,
   // at the same state, and each neighbour then uses that one matrix.
   begin(phase_, stage, before, old, before, now);
   const std::size_t n = as_size(phase_.parts().mesh.n_owned_nodes);
-  // What the run's own iteration has left of F is not the neighbours' to remove.
+  // The residual that the run's own iteration has left is not to be removed by the neighbours.
   std::vector<double> left(n);
   add_residual(phase_, stage, old, before, now, left);
   linearise(stage, now);

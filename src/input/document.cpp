@@ -51,7 +51,7 @@ Value convert(const toml::node& node, const std::string& file, int depth = 0) {
   } else if (const auto* integer = node.as_integer()) {
     result = Value(std::int64_t{integer->get()});
   } else if (const auto* number = node.as_floating_point()) {
-    // Infinity and NaN are numbers of TOML, and of no key.
+    // TOML allows infinity and NaN, but no key does.
     if (!std::isfinite(number->get())) throw InputError(where, "the number is not finite", "a finite number");
     result = Value(number->get());
   } else if (const auto* truth = node.as_boolean()) {

@@ -59,13 +59,13 @@ void CoupledMatrix::create_petsc_rectangles() {
     return static_cast<PetscInt>(constraints.empty() ? mesh_.global_node[as_size(node)] * n_components + i
                                                      : constraints.unknown(as_index(entry)));
   };
-  // Temperatures are tied to nothing.
+  // Temperatures are not tied to others.
   const auto temperature_number = [&](Index node, int field) -> PetscInt {
     return fixed_t[as_size(std::int64_t{node} * n_fields + field)]
                ? -1
                : static_cast<PetscInt>(mesh_.global_node[as_size(node)] * n_fields + field);
   };
-  // Rows and columns of both rectangles, in the order in which their values are stored.
+  // The rows and columns of both rectangles are listed in the order in which their values are stored.
   std::vector<PetscInt> force_rows, force_columns, heat_rows, heat_columns;
   for (auto* list : {&force_rows, &force_columns, &heat_rows, &heat_columns}) list->reserve(force_.size());
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)

@@ -45,13 +45,13 @@ FlowChange restart_flow(MechanicalPhase& phase, const MechanicalState& old, cons
                         StepDeformation& deformation) {
   const MechanicalBodies& bodies = phase.bodies();
   const profile::Part part("history");
-  // The flow of the step is found again at the temperatures that heat has reached, at the same displacements:
-  // both the held and the old state are those of t_n.
+  // The plastic flow of the step is computed again at the temperatures after the thermal phase, with the same
+  // displacements: both the held and the old state are those of t_n.
   phase.equations().prepare(old, pass);
   deformation.resize(bodies.blocks.size());
   FlowChange total;
   auto failed = static_cast<double>(bodies.mesh.bodies.size());  // the first body whose law finds no state
-  // Every block does its points. The first body whose law finds no state is remembered instead of thrown,
+  // Every block evaluates its points. The first body whose law finds no state is stored instead of thrown,
   // since all processes have to leave the loop together.
   for (std::size_t b = 0; b < bodies.blocks.size(); ++b) {
     const FlowChange change = bodies.blocks[b]->restart_flow(
@@ -81,8 +81,8 @@ FlowChange restart_flow(MechanicalPhase& phase, const MechanicalState& old, cons
         "mechanics: the return mapping of the thermal phase finds no state at the temperatures of "
         "the step's end",
         "body '" + bodies.mesh.bodies[body].name + "'", Failure::law);
-  // Work and dissipation are summed over the processes; of the smallest and largest dissipation the extremes
-  // count.
+  // Work and dissipation are summed over the processes; the smallest and the largest dissipation are those of
+  // all processes.
   total.flows = parallel::any_process(total.flows);
   BlockWork& work = total.work;
   double sums[] = {work.dissipation, work.plastic_dissipation, work.plastic_work, work.inelastic_entropy};

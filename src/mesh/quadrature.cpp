@@ -142,7 +142,8 @@ Rule stiffness_rule(Shape shape) {
 Rule nodal_rule(Shape shape) {
   static constexpr std::array<Point, 8> corner{
       {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
-  // The weights share the reference volume equally.
+  // First the vertices of the reference element become points, then the middles of its edges; at last every
+  // point gets an equal share of the reference volume as its weight.
   const int dim = dimension(shape), n = node_count(shape), vertices = vertex_count(shape);
   const bool simplex = row_of(shape).reference == Reference::simplex;
   double volume = 1;
@@ -161,8 +162,8 @@ Rule nodal_rule(Shape shape) {
       for (std::size_t i = 0; i < as_size(dim); ++i) xi[i] = corner[as_size(a)][i];
     }
   }
-  // A mid node lies halfway between the two vertices whose basis it is zero at; Gmsh's lists follow the edges
-  // of the faces.
+  // A mid-edge node lies halfway between the two vertices of its edge. The list of a face has its vertices
+  // first, then its mid-edge nodes in the order of its edges.
   if (order(shape) == 2) {
     if (dim == 1) {
       rule[2].xi = {0, 0, 0};

@@ -127,8 +127,7 @@ std::vector<contact::ContactParameters> contact_specs(const cases::CaseSpec& spe
   // or, where it depends on the mesh, when the pair is made.
   std::vector<contact::ContactParameters> result;
   for (const cases::ContactSpec& c : spec.contacts) {
-    // Names, sides and geometry first, then how the contact is computed, at last what passes
-    // through it.
+    // Names, sides and geometry come first, then the settings of the computation, at last heat and friction.
     contact::ContactParameters pair;
     pair.name = c.name;
     pair.slave = c.sides()[0];
@@ -141,11 +140,10 @@ std::vector<contact::ContactParameters> contact_specs(const cases::CaseSpec& spe
     pair.normal = normal_kind(c.normal, spec.dynamics.has_value());
     pair.penetration_tolerance = c.penetration_tolerance;
     pair.penalty_is_factor = !c.penalty;
-    // Means around nodes bear a stiffer penalty than points of faces do.
+    // With means around nodes the default penalty is stiffer than with points of faces.
     const double factor =
         c.integration == contact::IntegrationRule::mortar ? k_penalty_factor_of_means : k_penalty_factor;
-    // The penalty of the case, or a factor that is multiplied with the stiffness of what meets
-    // there.
+    // The penalty is that of the case, or a factor on the stiffness of the bodies in contact.
     pair.penalty = c.penalty.value_or(c.penalty_factor.value_or(factor));
     pair.stabilisation = c.stabilisation;
     pair.integration = c.integration;

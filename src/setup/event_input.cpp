@@ -129,20 +129,21 @@ void add_mechanical(const cases::CaseSpec& spec, const cases::StageRun* stage, E
 
 std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::StageRun* stage, double from,
                                    double to, double step) {
-  // Times at which a condition jumps or bends, so that steps land on them. Conditions that do not hold in the
-  // stage, and functions of temperature, give none.
+  // The list collects the times at which a condition jumps or changes its slope, so that steps end there.
+  // Conditions that are not active in the stage, and functions of temperature, add none.
   EventList list(stage, from, to, step);
   if (spec.has_heat())
     for (const cases::ThermalConditionSpec& c : spec.thermal_conditions) {
       if (!cases::holds(c.stages, stage)) continue;
       using Kind = cases::ThermalConditionSpec::Kind;
-      // A sleeve ignites by temperature, at no time that is known beforehand.
+      // A sleeve ignites by its temperature: the time is not known beforehand.
       if (c.kind == Kind::exothermic) continue;
       if (c.kind == Kind::temperature) {
         list.add(c.temperature, c.clock, true, k_of_values);
         continue;
       }
-      // What bends counts less than what jumps: the last arguments say which of the two a quantity can do.
+      // A prescribed temperature counts by its values at the ends of steps (true), fluxes and films by their
+      // means over steps (false). Temperatures have a tolerance relative to their value in kelvin.
       const bool film = c.kind == Kind::film, radiates = c.kind == Kind::radiation;
       if (c.kind == Kind::flux) list.add(c.flux, c.clock, false);
       if (c.kind == Kind::source) list.add(c.power, c.clock, false);
@@ -151,14 +152,14 @@ std::vector<TimeEvent> time_events(const cases::CaseSpec& spec, const cases::Sta
       if (film || radiates) list.add(c.ambient, c.clock, false, k_of_values);
       list.add(c.factor, c.clock, false);
     }
-  // Flow and temperature of what comes into channels.
+  // Channels add the events of their flow and of their inlet temperature.
   for (const cases::ChannelSpec& c : spec.channels) {
     if (!cases::holds(c.stages, stage)) continue;
     for (const auto* f : {&c.flow, &c.mass_flow})
       if (*f) list.add(**f, c.clock, false);
     if (c.inlet) list.add(*c.inlet, c.clock, false, k_of_values);
   }
-  // Sources that travel are switched, and turn.
+  // Travelling sources add the times at which they are switched or change their direction.
   for (const cases::SourceSpec& source : spec.sources) {
     list.add(source.power, cases::TimeOrigin::run, false);
     list.add(source.efficiency, cases::TimeOrigin::run, false);

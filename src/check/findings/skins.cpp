@@ -122,9 +122,9 @@ bool is_joined(const CaseMeasures& m, std::size_t body) {
 }
 
 void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasures& m, Findings& findings) {
-  // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. Both
-  // skins are compared where they come near each other; the size of the largest face is the distance that
-  // counts.
+  // Bare faces of a poured body that lie on another body without contact or shared nodes pass no heat. The
+  // skins of both bodies are compared; of the other body only faces within the size of the largest bare face
+  // are gathered.
   constexpr double k_same_temperature = 50;  // [K]: as in findings/interface.cpp
   if (!spec.has_heat() || spec.bodies.size() < 2 || m.pours.empty()) return;
   const Skins bare_faces = bare_skins(spec, a, m);
@@ -141,8 +141,8 @@ void find(const cases::CaseSpec& spec, const setup::Assembly& a, const CaseMeasu
     largest = parallel::global_max(largest);
     if (!(largest > 0)) continue;
     const double skin = total_area(skins[body]);
-    // Two poured bodies are told once, and only bodies that share a stage and start apart, or are joined
-    // somewhere else.
+    // A pair of poured bodies is reported once, and only bodies that share a stage. Pairs with different
+    // temperatures at the start whose body nothing joins are left to findings/interface.cpp.
     for (std::size_t other = 0; other < spec.bodies.size(); ++other) {
       const bool both = m.is_poured(other);
       const bool alike = std::abs(a.start[body].high - a.start[other].low) < k_same_temperature;

@@ -170,7 +170,7 @@ class SlipBalance {
 };
 
 double SlipBalance::left_at(double theta) {
-  // The slip of this temperature, with its traction, from the cone (5.41).
+  // First the slip at this temperature is found with its traction on the cone (5.41).
   friction_ =
       law_.update({in_.trial, in_.pressure, in_.internal_variable, theta, /*iterate=*/{}, in_.stiffening});
   FrictionResponse& f = friction_;
@@ -194,7 +194,7 @@ double SlipBalance::left_at(double theta) {
   }
   f.structural_entropy = entropy;
   const double gained = capacity_ * std::log(theta / start_) + entropy * rate_;
-  // The derivative of the balance by Θ, at γ(Θ).
+  // At last the balance of heat is returned, and its derivative by Θ along γ(Θ) is stored.
   slope_ = gained + capacity_ + conductance_ - heat_theta * rate_ +
            (theta * entropy_slip - heat_slip) * slip_theta * rate_;
   return theta * (gained + conductance_) - source_ - f.dissipation * rate_;

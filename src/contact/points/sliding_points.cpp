@@ -84,6 +84,8 @@ bool SlidingPoints::own_slave(std::size_t point) const {
 }
 
 void SlidingPoints::find_faces_that_concern() {
+  // Faces of the master matter to this process if they are near its own nodes. Rings of neighbours are added
+  // to the faces with own nodes: first those that the graph of the matrix reaches, then those near them.
   const auto own = [&](Index node) { return node < mesh_.n_owned_nodes; };
   all_own_ = std::all_of(slave_.all_nodes().begin(), slave_.all_nodes().end(), own);
   if (all_own_) return;
@@ -110,7 +112,7 @@ void SlidingPoints::find_faces_that_concern() {
   mark(reached);
   widen(options_.graph_rings);
   mark(near);
-  // A partner lies on the closest face or next to it.
+  // A partner lies on the closest face or on a neighbour of it, so one more ring is watched.
   widen(1);
   master_->watch(std::move(found));
 }

@@ -90,6 +90,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
   double add_forces(std::span<const double> u, std::span<double> forces) override {
+    // Each batch evaluates the law at its displacement and pressure. Its forces and its defect of volume are
+    // then scattered to the nodes; the sum of the squared forces is returned.
     Lane total(0.0);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
@@ -98,7 +100,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Nodal p = this->gather_pressure(this->field_.pressure, batch), mass = masses(batch);
       const Lane mean_pressure = mean(p, batch), pores = pores_.fraction(batch, mean_pressure);
       const MixedPoint point = answer(batch, gradient, mean_pressure);
-      // Forces are of the deviator, compaction and the nodal pressure; the defect is that of the volume.
+      // Forces come from deviator, compaction and nodal pressure; the defect is that of the volume.
       Vectors f{};
       Sym<Lane> effective = dev(point.response.stress);
       const Lane compacting = compaction_.stress(batch, trace(gradient));

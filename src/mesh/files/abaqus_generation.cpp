@@ -236,11 +236,12 @@ void Generator::rows_of_elements(const AbaqusLine& line) {
     line.fail("there is no element " + std::to_string(number) + " up to here");
   // The master element is copied by value, because the list grows meanwhile.
   const AbaqusElement master = scope_.elements[as_size(found->second)];
-  // A row, rows in a layer, layers: how many, and by how much nodes and elements rise from one to the next.
+  // For the elements of a row, the rows of a layer and the layers the line gives their number, and by how
+  // much the numbers of nodes and elements rise from one to the next.
   std::array<std::array<GlobalIndex, 3>, 3> rise{};
   double all = 1;
   for (std::size_t d = 0; d < 3; ++d) {
-    // The numbers of elements rise by one in a row and by what the row has from row to row, unless told.
+    // By default the numbers of elements rise by one in a row, and from row to row by the length of a row.
     const GlobalIndex usual = d == 0 ? 1 : rise[d - 1][0] * rise[d - 1][2];
     rise[d] = {line.integer(1 + 3 * d, 1), line.integer(2 + 3 * d, 1), line.integer(3 + 3 * d, usual)};
     if (rise[d][0] < 1) line.fail("*ELGEN makes rows of " + std::to_string(rise[d][0]) + " elements");

@@ -89,8 +89,8 @@ class Maker {
     order_mine(here, mesh);
     for (const auto& [name, blocks] : faces_)
       for (const Kept& kept : blocks) meet(kept);
-    // Own nodes come one behind the other on each process and have their numbers in the input; owners tell
-    // both to those who hold copies.
+    // Own nodes are numbered consecutively, process after process, and keep their numbers in the input. The
+    // owner sends both numbers to the processes that hold copies.
     std::int64_t mine = mesh.n_owned_nodes, all = mine;
     processes::sum(std::span<std::int64_t>(&all, 1));
     mesh.n_global_nodes = all;

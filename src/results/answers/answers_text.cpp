@@ -358,7 +358,7 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
                     fmt::format("{} {}", format.volume(hole->value), format.place(hole->where)));
     return lines;
   };
-  // From what is seen first when the casting is cut: pipes, cavities, sinks, swelling, pores.
+  // The lines begin with what is seen first when the casting is cut: pipes, cavities, sinks, swelling, pores.
   std::string text;
   for (int k = 1; const criteria::CriterionResult* pipe = result(fmt::format("pipe_{}_volume", k)); ++k) {
     const auto of_pipe = [&](const char* what) { return result(fmt::format("pipe_{}_{}", k, what))->value; };

@@ -233,9 +233,9 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     in.refuse(fmt::format("its 'rates_of_creep' are of {} blocks, the mesh has {}", creep.size(),
                           mechanics.history.size()));
   c.continuation.rates.creep.resize(creep.size());
-  // A run that went on with backward Euler left no history before the last: the next step is one too.
+  // A run that continued with backward Euler has no earlier history: the next step is backward Euler too.
   if (mechanics.before.empty()) mechanics.dt_before = 0;
-  // History of the elements of each block, as much of it as the time integration needs.
+  // The history of each block's elements is read as far as the time integration needs it.
   for (std::size_t b = 0; b < mechanics.history.size(); ++b) {
     const std::string name = block_name(mesh, b);
     take_history(in, name, name + "/values", mesh.blocks[b], mechanics.history[b]);
