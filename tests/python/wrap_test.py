@@ -1,5 +1,6 @@
 """The text of the pages is wrapped at 120 columns, and wrapping changes nothing of what a reader sees."""
 
+import re
 import unittest
 
 from solidus_docs import links, wrap
@@ -40,6 +41,12 @@ class Wrapped(unittest.TestCase):
 
     def test_line_breaks_stay(self):
         self.assertEqual(wrap.wrapped("one  \ntwo\nthree\\\nfour\n"), "one  \ntwo three\\\nfour\n")
+
+    def test_a_row_of_a_table_is_one_line(self):
+        rows = [(str(page.relative_to(links.ROOT)), line) for page in wrap.by_hand()
+                for line in re.sub(r"```.*?```", "", page.read_text(), flags=re.S).split("\n") if re.match(r" {0,3}\|", line)]
+        self.assertGreater(len(rows), 1000)
+        self.assertEqual([row for row in rows if not row[1].rstrip().endswith("|")], [])
 
     def test_wrapping_twice_is_wrapping_once(self):
         for page in wrap.by_hand():
