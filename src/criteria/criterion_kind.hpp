@@ -49,6 +49,9 @@ struct CriterionContext {
   std::vector<std::optional<FatigueLaw>> fatigue = {};
   /// Limits of wear and soldering of dies, [body]; empty: none are followed.
   std::vector<DieLimits> die_limits = {};
+  /// All elements, of which `mesh` has those that are active; null: the same.
+  const mesh::Mesh* all_elements = nullptr;
+  const mesh::Mesh& whole() const { return all_elements != nullptr ? *all_elements : mesh; }
 };
 
 class CriterionKind {

@@ -70,14 +70,15 @@ bool MushStrain::has_something_to_say(const std::vector<material::Material>& mat
   return std::ranges::any_of(materials, [](const material::Material& m) { return tears(m) || cracks(m); });
 }
 
-MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
+MushStrain::MushStrain(const mesh::Mesh& mesh, const mesh::Mesh& whole, AnalysisKind kind,
                        const std::vector<material::Material>& materials)
-    : mesh_(mesh) {
+    : mesh_(mesh), whole_(whole) {
   // Only blocks whose material freezes over a range are followed. `first` counts all elements, so that rows
   // of the record are the element numbers of the mesh.
   std::size_t first = 0;
   const std::vector<double> longest = longest_sides(mesh);
-  for (const mesh::ElementBlock& block : mesh.blocks) {
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = mesh.blocks[b];
     const material::Material& material = materials[as_size(block.body)];
     const material::PhaseChange* freezing = material.solidification();
     if (freezing != nullptr && freezing->fraction.liquidus() > freezing->fraction.solidus()) {
@@ -97,7 +98,7 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
       std::ranges::sort(nodes);
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
-    first += as_size(block.size());
+    first += as_size(whole.blocks[b].size());
   }
   // A field exists only if some material has the law that it comes from.
   const std::array<bool, k_fields> said = {std::ranges::any_of(materials, tears),
@@ -110,7 +111,7 @@ MushStrain::MushStrain(const mesh::Mesh& mesh, AnalysisKind kind,
 }
 
 CriterionRecord MushStrain::initial(const CriterionInput& /*start*/) const {
-  return {"mush_strain", {make_column(mesh_, "elements", mesh::FieldPlace::cell, k_mush_numbers)}, {}};
+  return {"mush_strain", {make_column(whole_, "elements", mesh::FieldPlace::cell, k_mush_numbers)}, {}};
 }
 
 void MushStrain::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {

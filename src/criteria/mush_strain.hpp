@@ -44,8 +44,11 @@ double critical_crack_strain(const material::Casting& casting, double rate, doub
 
 class MushStrain : public Criterion {
  public:
-  /// @param materials  one per body of the mesh; kept by reference, as the mesh is
-  MushStrain(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials);
+  /// @param mesh       the active elements
+  /// @param whole      all elements, in the same blocks: columns and fields are theirs
+  /// @param materials  one per body of the mesh; kept by reference, as the meshes are
+  MushStrain(const mesh::Mesh& mesh, const mesh::Mesh& whole, AnalysisKind kind,
+             const std::vector<material::Material>& materials);
 
   /// Whether one of the materials says something of either.
   static bool has_something_to_say(const std::vector<material::Material>& materials);
@@ -73,7 +76,7 @@ class MushStrain : public Criterion {
   static constexpr std::size_t k_fields = 2;
   std::array<double, k_fields> values_of(const OfBlock& block, std::span<const double> row) const;
 
-  const mesh::Mesh& mesh_;
+  const mesh::Mesh &mesh_, &whole_;
   std::vector<OfBlock> blocks_;                      ///< those that freeze over a range
   std::vector<const quantities::Quantity*> fields_;  ///< those that the materials say something of
   std::vector<std::size_t> which_;                   ///< their places in fields::k_of_mush_strain

@@ -68,6 +68,7 @@ RigidFit::RigidFit(const mesh::Mesh& mesh, AnalysisKind kind)
     }
     first = global_sums(first);
     body.total = first[3];
+    if (!(body.total > 0)) continue;  // nothing of it is active yet
     for (std::size_t i = 0; i < 3; ++i) body.centre[i] = first[i] / first[3];
 
     // The inertia tensor about the centre gives the rotation that fits best: fully in space, about the normal
@@ -111,6 +112,10 @@ std::vector<SmallMotion> RigidFit::fit(std::span<const double> displacement) con
     }
     sums = global_sums(sums);
     SmallMotion motion;
+    if (!(body.total > 0)) {
+      motions.push_back(motion);
+      continue;
+    }
     motion.centre = body.centre;
     // With the inertia they give the translation and rotation of least squares.
     for (std::size_t i = 0; i < 3; ++i) {

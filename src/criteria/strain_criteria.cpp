@@ -16,7 +16,7 @@ namespace solidus::criteria {
 
 namespace {
 
-enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement, k_coherent_for, k_moved };
+enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement, k_coherent_for, k_moved, k_followed };
 Lane equivalent(const Sym<Lane>& strain) {
   return sqrt(Lane(2.0 / 3.0) * dot(dev(strain), dev(strain)));
 }
@@ -42,18 +42,20 @@ std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<mater
 
 }  // namespace
 
-StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
+StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, const mesh::Mesh& whole, AnalysisKind kind,
                                const std::vector<material::Material>& materials,
                                std::vector<double> temperature)
     : mesh_(mesh),
+      whole_(whole),
       components_(as_size(displacement_components(kind))),
       temperature_(std::move(temperature)),
-      body_of_node_(bodies_of_nodes(mesh, materials)),
+      body_of_node_(bodies_of_nodes(whole, materials)),
       ghosts_(mesh),
       rigid_(mesh, kind) {
   std::size_t first = 0;
   // The nodes of bodies that freeze, each once, and where the points of each block begin in the history.
-  for (const mesh::ElementBlock& block : mesh.blocks) {
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::ElementBlock& block = mesh.blocks[b];
     const material::Material& material = materials[as_size(block.body)];
     blocks_.push_back(
         {ElementStrain(mesh, block, kind), &block, &material.casting, material.solidification(), {}, first});
@@ -61,7 +63,7 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
     if (material.solidification() != nullptr) nodes = block.nodes;
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    first += as_size(block.size());
+    first += as_size(whole.blocks[b].size());
   }
 }
 
@@ -77,14 +79,46 @@ double StrainCriteria::solid_fraction(const material::PhaseChange& freezing, con
 }
 
 CriterionRecord StrainCriteria::initial(const CriterionInput& /*start*/) const {
-  return {
+  CriterionRecord record{
       "strain",
-      {make_column(mesh_, "at_coherency", mesh::FieldPlace::cell, k_tensor),
-       make_column(mesh_, "brittle", mesh::FieldPlace::cell, k_tensor),
+      {make_column(whole_, "at_coherency", mesh::FieldPlace::cell, k_tensor),
+       make_column(whole_, "brittle", mesh::FieldPlace::cell, k_tensor),
        make_column(mesh_, "displacement_at_coherency", mesh::FieldPlace::node, static_cast<int>(components_)),
        make_column(mesh_, "coherent_for", mesh::FieldPlace::node),
        make_column(mesh_, "moved_until_coherent", mesh::FieldPlace::node)},
       {}};
+  if (&whole_ != &mesh_) record.columns.push_back(make_column(whole_, "followed", mesh::FieldPlace::cell));
+  return record;
+}
+
+/// Elements that were activated since the last step: their strain counts from their shape at this moment, and
+/// so does the displacement of nodes that have no other element. Where no body grows there are none.
+/// @param displacement  at the start of the step
+void StrainCriteria::begin_elements(std::span<const double> displacement, CriterionRecord& record) const {
+  if (&whole_ == &mesh_) return;
+  std::vector<double>&followed = record.columns[k_followed].values,
+  &at_coherency = record.columns[k_at_coherency].values, &start = record.columns[k_displacement].values;
+  std::vector<char> known(mesh_.x.size(), 0);
+  for (const OfBlock& block : blocks_)
+    for (Index e = 0; e < block.block->size(); ++e)
+      if (followed[block.first + as_size(e)] > 0)
+        for (const Index node : block.nodes_of(e)) known[as_size(node)] = 1;
+  // New nodes get the displacement, new elements the strain of this moment.
+  for (const OfBlock& block : blocks_)
+    for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
+      const std::size_t first = block.first + as_size(batch) * k_lanes;
+      const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
+      if (followed[first] > 0) continue;  // a block is activated as a whole
+      store_tensors(block.strain.strain(displacement, batch), k_tensor, first, count, at_coherency);
+      for (int lane = 0; lane < count; ++lane) {
+        followed[first + as_size(lane)] = 1;
+        for (const Index node : block.nodes_of(batch * k_lanes + lane))
+          if (known[as_size(node)] == 0)
+            for (std::size_t i = 0; i < components_; ++i)
+              start[as_size(node) * components_ + i] = displacement[as_size(node) * components_ + i];
+      }
+    }
+  ghosts_.update(start, static_cast<int>(components_));
 }
 
 void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next, CriterionRecord& record) {
@@ -98,6 +132,7 @@ void StrainCriteria::step(const CriterionInput& old, const CriterionInput& next,
     return max(min(block.strain.mean(fraction, batch), Lane(1.0)), Lane(0.0));
   };
   const std::vector<double>&old_u = old.mechanics.displacement, &u = next.mechanics.displacement;
+  begin_elements(old_u, record);
   // In each element: the strain at coherency is renewed as long as it is melt; the increment counts for the
   // brittle range by the share of the step within it.
   for (const OfBlock& block : blocks_) {
@@ -210,13 +245,14 @@ void StrainCriteria::fill(const CriterionInput& now, const CriterionRecord& reco
 std::vector<CriterionResult> StrainCriteria::findings(const CriterionRecord& record) const {
   double mine = 0;
   CriterionResult finding{largest_of(fields::k_brittle_strain), "1", 0, true, {}};
-  std::size_t element = 0;
   // The largest strain of the own elements and the centre of its element; then of all processes.
-  for (const mesh::ElementBlock& block : mesh_.blocks)
-    for (Index e = 0; e < block.size(); ++e, ++element) {
+  for (const OfBlock& of_block : blocks_)
+    for (Index e = 0; e < of_block.block->n_counted; ++e) {
+      const mesh::ElementBlock& block = *of_block.block;
+      const std::size_t element = of_block.first + as_size(e);
       const double value =
           largest_principal(tensor_at(record.columns[k_brittle].values.data() + element * k_tensor));
-      if (e >= block.n_counted || value <= mine) continue;
+      if (value <= mine) continue;
       mine = value;
       finding.where = {};
       const int n = mesh::node_count(block.shape);

@@ -36,11 +36,14 @@ namespace solidus::criteria {
 
 class StrainCriteria : public Criterion {
  public:
-  /// @param materials    one per body of the mesh; kept by reference, as the mesh is
+  /// @param mesh         the active elements
+  /// @param whole        all elements, in the same blocks, which are active as a whole or not at all: columns
+  ///                     and fields are theirs. The same object where no body grows.
+  /// @param materials    one per body of the mesh; kept by reference, as the meshes are
   /// @param temperature  of bodies without a thermal phase [K], [local node]; empty: there is one
   /// Collective.
-  StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-                 std::vector<double> temperature = {});
+  StrainCriteria(const mesh::Mesh& mesh, const mesh::Mesh& whole, AnalysisKind kind,
+                 const std::vector<material::Material>& materials, std::vector<double> temperature = {});
 
   /// Nothing strained so far. Nodes and elements that never melt stay so.
   CriterionRecord initial(const CriterionInput& start) const override;
@@ -67,10 +70,11 @@ class StrainCriteria : public Criterion {
   std::span<const double> temperature(const CriterionInput& moment) const;
   void follow_displacement(const CriterionInput& old, const CriterionInput& next,
                            const std::vector<double>& soft, CriterionRecord& record) const;
+  void begin_elements(std::span<const double> displacement, CriterionRecord& record) const;
   double solid_fraction(const material::PhaseChange& freezing, const CriterionInput& moment,
                         std::size_t node) const;
 
-  const mesh::Mesh& mesh_;
+  const mesh::Mesh &mesh_, &whole_;
   std::size_t components_;
   std::vector<double> temperature_;
   std::vector<OfBlock> blocks_;

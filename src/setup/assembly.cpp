@@ -355,7 +355,7 @@ void build(const cases::CaseSpec& spec, Assembly& a) {
     a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;
   a.local_laws = local_laws(spec, a.materials, a.start);
   a.criteria = make_criteria(spec, a.growth ? a.growth->present() : a.mesh, a.materials, a.start,
-                             a.local_laws, a.phases);
+                             a.local_laws, a.phases, a.growth ? &a.mesh : nullptr);
   if (a.criteria == nullptr) return;
   a.phases.criteria = a.criteria.get();
   a.initial.criteria = a.criteria->initial({a.initial.time, a.initial.heat, a.initial.mechanics});

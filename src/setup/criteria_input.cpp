@@ -288,21 +288,21 @@ void check_die_lives(const cases::CaseSpec& spec) {
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
                                                   const std::vector<InitialTemperatureRange>& start,
-                                                  const LocalLaws& laws, const coupling::Phases& phases) {
+                                                  const LocalLaws& laws, const coupling::Phases& phases,
+                                                  const mesh::Mesh* all_elements) {
   if (!follows(spec, materials)) return nullptr;
   // What every criterion may ask for, gathered once: mesh, materials, phases and the options of the
   // case.
   const std::vector<char> followed = followed_bodies(spec, materials, start);
   if (spec.feeding.moves_heat) check_one_alloy(spec, followed);
-  // The melt that can feed a growing body changes with it, which feeding and gas do not follow; the criteria
-  // of strain do not follow new elements either.
+  // The melt that can feed a growing body changes with it, which feeding and gas do not follow.
   const bool whole = spec.depositions.empty();
   const criteria::CriterionContext context{
       .mesh = mesh,
       .kind = spec.analysis.kind,
       .materials = materials,
       .heat = phases.heat,
-      .mechanics = phases.mechanics != nullptr && whole,
+      .mechanics = phases.mechanics != nullptr,
       .temperature = phases.heat != nullptr ? std::vector<double>{} : phases.temperature,
       .followed = followed,
       .evaluation = spec.criteria.evaluation,
@@ -313,7 +313,8 @@ std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, c
       .local_laws = laws,
       .names = names_of_bodies(spec),
       .fatigue = fatigue_laws(spec),
-      .die_limits = die_limits(spec, mesh)};
+      .die_limits = die_limits(spec, mesh),
+      .all_elements = all_elements};
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   if (std::ranges::any_of(spec.die_lives, [](const auto& d) { return d.worn_depth.has_value(); }))
     all->follow_wear([&mesh, pairs = phases.contacts] { return wear_of(mesh, pairs); });

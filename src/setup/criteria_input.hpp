@@ -26,10 +26,12 @@ void check_die_lives(const cases::CaseSpec& spec);
 /// @param start      temperatures, [body]: what is poured is followed (cast_bodies.hpp)
 /// @param laws       of local_laws()
 /// @param phases     without criteria yet; it, mesh and materials outlive the criteria
+/// @param all_elements  of a mesh of which elements are activated; null: `mesh` has all of them
 /// Throws InputError for a feeder that is no group of the mesh.
 std::unique_ptr<criteria::Criteria> make_criteria(const cases::CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
                                                   const std::vector<InitialTemperatureRange>& start,
-                                                  const LocalLaws& laws, const coupling::Phases& phases);
+                                                  const LocalLaws& laws, const coupling::Phases& phases,
+                                                  const mesh::Mesh* all_elements = nullptr);
 
 }  // namespace solidus::setup

@@ -352,8 +352,8 @@ coupling::BodyHeat Deposition::grow(double time, coupling::State* state) {
   if (contacts_) contacts_->follow(present(), time, state);
   // Criteria refer to the elements and to the storage that have just changed; their records go on.
   if (a_.criteria)
-    a_.criteria->replace(
-        std::move(*make_criteria(spec_, present(), a_.materials, a_.start, a_.local_laws, a_.phases)));
+    a_.criteria->replace(std::move(
+        *make_criteria(spec_, present(), a_.materials, a_.start, a_.local_laws, a_.phases, &a_.mesh)));
   return heat;
 }
 

@@ -242,6 +242,108 @@ TEST(GrowingStress, TwoProcessesAgreeWithOne) {
         << column;
 }
 
+/// A bar between two walls that is heated until it melts, held, and cooled, all of it at one temperature.
+/// @param births      when the elements come [s], a formula
+/// @param start       [degC]
+/// @param plasticity  lines of the card
+std::string remelted_bar(const std::string& name, const std::string& births, int start, const char* heating,
+                         const std::string& plasticity) {
+  const std::string card = k_here.write(
+      name + "_metal.toml",
+      "title = \"metal\"\ndensity = \"4000 kg/m3\"\nconductivity = \"400 W/m/K\"\nspecific_heat = \"1000 "
+      "J/kg/K\"\nyoung_modulus = \"100 GPa\"\npoisson_ratio = 0.3\nexpansion = \"2e-5 1/K\"\n" +
+          plasticity +
+          "[[phase_change]]\nname = \"solidification\"\nsolidification = true\nlatent_heat = \"100 "
+          "kJ/kg\"\nfraction = { kind = \"linear\", solidus = \"600 degC\", liquidus = \"602 degC\" }\n");
+  std::string text = fmt::format(
+      "title = \"A bar between two walls melts and freezes again\"\n[analysis]\nkind = \"solid\"\n[mesh]\n"
+      "shape = \"block\"\nelement = \"hex8\"\n[mesh.block]\nsize = [\"10 mm\", \"10 mm\", \"10 "
+      "mm\"]\ndivisions = [1, 1, 2]\n[time]\nend = \"100 s\"\nstep = \"0.25 s\"\n[[body]]\nname = "
+      "\"block\"\nmaterial = \"{}\"\ninitial_temperature = \"{} degC\"\n",
+      card, start);
+  if (!births.empty())
+    text += fmt::format(
+        "[[deposition]]\nname = \"metal\"\nbody = \"block\"\nkind = \"times\"\ntime = {{ formula = "
+        "\"{}\" }}\n",
+        births);
+  for (const char* group : {"x_min", "x_max"})
+    text += fmt::format(
+        "[[thermal_condition]]\nname = \"{0}\"\ngroup = \"{0}\"\nkind = \"temperature\"\ntemperature = {{ of "
+        "= \"time\", argument_unit = \"s\", unit = \"degC\", points = [{1}[60, 620], [80, 560], [100, 420]] "
+        "}}\n",
+        group, heating);
+  for (const char* support : {"x_min ux", "x_max ux", "y_min uy", "z_min uz"})
+    text += fmt::format(
+        "[[mechanical_condition]]\nname = \"{0}\"\ngroup = \"{0}\"\nkind = \"displacement\"\n{1} = \"0 "
+        "mm\"\n",
+        std::string(support).substr(0, 5), std::string(support).substr(6));
+  text +=
+      "[[probe]]\nname = \"axial\"\nfield = \"stress\"\ncomponent = \"xx\"\nunit = \"MPa\"\npoint = [\"5 "
+      "mm\", \"5 mm\", \"7 mm\"]\n[[probe]]\nname = \"brittle\"\nfield = \"brittle_strain\"\nunit = "
+      "\"1\"\npoint = [\"5 mm\", \"5 mm\", \"7 mm\"]\n[[probe]]\nname = \"strain\"\nfield = "
+      "\"strain_since_coherency\"\nunit = \"1\"\npoint = [\"5 mm\", \"5 mm\", \"7 mm\"]\n[[probe]]\nname = "
+      "\"distortion\"\nfield = \"distortion\"\ncomponent = \"z\"\nunit = \"m\"\nbody = \"block\"\npoint = "
+      "[\"10 mm\", \"10 mm\", \"10 mm\"]\n";
+  return text;
+}
+constexpr const char* k_heated = "[0, 20], [40, 620], ";
+
+/// Heating has bent it far beyond the yield stress; what freezes has the stress of its cooling from
+/// coherency, as metal that freezes for the first time: E α (Θ_c − Θ), Θ_c within the range of 2 K, up to
+/// yield.
+TEST(GrowingStress, MetalThatMeltsAgainForgetsItsStress) {
+  const std::string yields = "[plasticity]\nflow_stress = \"100 MPa\"\n";
+  const CaseRun again = k_here.run("melts_again", remelted_bar("again", "", 20, k_heated, yields)),
+                first = k_here.run("melts_first", remelted_bar("first", "", 620, "", yields));
+  ASSERT_TRUE(again.finished && first.finished) << again.reason << first.reason;
+  const auto at = [](const CaseRun& run, const char* column, double time) {
+    return solidus::testing::at(run.history, column, time);
+  };
+  EXPECT_NEAR(at(again, "axial[MPa]", 38), -100, 0.1);  // yields under the walls
+  for (const double time : {70.0, 75.0, 80.0, 100.0})
+    EXPECT_NEAR(at(again, "axial[MPa]", time), at(first, "axial[MPa]", time), 0.01) << time << " s";
+  const double slope = (at(again, "axial[MPa]", 80) - at(again, "axial[MPa]", 70)) / 30;
+  EXPECT_NEAR(slope, 2, 1e-3);  // E α [MPa/K]
+  const double coherent = 560 + at(again, "axial[MPa]", 80) / 2;
+  EXPECT_GT(coherent, 600);
+  EXPECT_LT(coherent, 602);
+  EXPECT_NEAR(at(again, "axial[MPa]", 100), 100, 0.1);
+  EXPECT_NEAR(at(again, "brittle[1]", 100), at(first, "brittle[1]", 100), 1e-9);
+  EXPECT_NEAR(at(again, "strain[1]", 100), at(first, "strain[1]", 100), 1e-7);
+}
+
+/// Hardening stays (4.112): ξ at the end is the sum of heating and cooling. The documentation says so.
+TEST(GrowingStress, MetalThatMeltsAgainKeepsItsHardening) {
+  const std::string hardens =
+      "[plasticity]\nflow_stress = \"100 MPa\"\nisotropic_hardening = \"linear\"\nhardening_modulus = \"2 "
+      "GPa\"\n";
+  const CaseRun run = k_here.run("keeps_hardening", remelted_bar("hardens", "", 20, k_heated, hardens));
+  ASSERT_TRUE(run.finished) << run.reason;
+  // Beyond yield E α ΔΘ = σ + E ξ, σ = σ_0 + H ξ: in compression up to 600 degC, then in tension.
+  const double heating = (2 * 580 - 100) / 102.0e3, cooling = (2 * 180.36 - 100 - 2e3 * heating) / 102.0e3;
+  EXPECT_NEAR(solidus::testing::at(run.history, "axial[MPa]", 100), 100 + 2e3 * (heating + cooling), 0.2);
+}
+
+/// Criteria of strain begin with the elements: the upper one comes while all is melt, and has the values of a
+/// bar that is complete from the start.
+TEST(GrowingStress, CriteriaOfStrainFollowNewElements) {
+  const std::string yields = "[plasticity]\nflow_stress = \"100 MPa\"\n";
+  const std::vector<std::string> fine = {"time.step=\"0.05 s\""};  // ten in the range of 2 K
+  const CaseRun whole = k_here.run("criteria_whole", remelted_bar("whole", "", 620, "", yields), fine);
+  const std::string text = remelted_bar("grown", "z < 0.005 ? 0 : 20", 620, "", yields);
+  const CaseRun grown = k_here.run("criteria_grown", text, fine);
+  ASSERT_TRUE(whole.finished && grown.finished) << whole.reason << grown.reason;
+  for (const char* column : {"axial[MPa]", "brittle[1]", "strain[1]", "distortion[m]"}) {
+    const double value = whole.history.at(column).back();
+    EXPECT_GT(std::abs(value), 0) << column;
+    EXPECT_NEAR(grown.history.at(column).back(), value, 1e-6 * std::abs(value)) << column;
+  }
+  // A bar that is held: α ΔΘ of the brittle range, 0.09 of 2 K.
+  EXPECT_NEAR(grown.history.at("brittle[1]").back(), 2e-5 * 0.18, 0.2 * 2e-5 * 0.18);
+  k_here.expect_exact_restart("criteria_restart", text, 1331, fine);       // as it freezes
+  k_here.expect_exact_restart("criteria_restart_early", text, 300, fine);  // before the upper element
+}
+
 TEST(GrowingStress, RefusesWhatItCannotYetWithItsPlace) {
   const Bar bar = yielding();
   const std::string text = bar.text();

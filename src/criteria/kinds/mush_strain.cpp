@@ -13,7 +13,7 @@ struct MushStrainKind {
   static constexpr bool from_data = true;
   std::unique_ptr<Criterion> make(const CriterionContext& c) const {
     if (!c.mechanics || c.heat == nullptr || !MushStrain::has_something_to_say(c.materials)) return nullptr;
-    return std::make_unique<MushStrain>(c.mesh, c.kind, c.materials);
+    return std::make_unique<MushStrain>(c.mesh, c.whole(), c.kind, c.materials);
   }
 };
 

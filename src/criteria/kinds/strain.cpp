@@ -12,7 +12,7 @@ struct StrainKind {
   static constexpr int place = 60;
   std::unique_ptr<Criterion> make(const CriterionContext& c) const {
     if (!c.mechanics) return nullptr;
-    return std::make_unique<StrainCriteria>(c.mesh, c.kind, c.materials, c.temperature);
+    return std::make_unique<StrainCriteria>(c.mesh, c.whole(), c.kind, c.materials, c.temperature);
   }
 };
 
