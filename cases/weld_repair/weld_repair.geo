@@ -18,7 +18,7 @@ Curve Loop(4) = {4, 16, -6, -15};  Plane Surface(4) = {4};
 Transfinite Surface {1:4};
 Recombine Surface {1:4};
 // Three pieces along x: before the groove, along it, behind it.
-plate() = {}; bead() = {}; skin() = {}; bottom() = {};
+plate() = {}; bead() = {}; skin() = {}; bottom() = {}; middle() = {};
 For s In {1:4}
   from = s;
   For piece In {0:2}
@@ -33,6 +33,9 @@ For s In {1:4}
     // Sides in the order of the loop's lines.
     If (s == 1)
       bottom() += e(2);
+    EndIf
+    If (s == 1 || s == 3)
+      middle() += e(5);
     EndIf
     If (s == 2)
       bottom() += e(2); skin() += e(3);
@@ -54,3 +57,6 @@ Physical Volume("plate") = plate();
 Physical Volume("bead") = bead();
 Physical Surface("skin") = skin();
 Physical Surface("bottom") = bottom();
+Physical Surface("middle") = middle();
+Physical Point("near") = {1};  // both ends of the line below the middle
+Physical Point("far") = Point In BoundingBox {99.9, -0.1, -20.1, 100.1, 0.1, -19.9};
