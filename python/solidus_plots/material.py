@@ -1,7 +1,7 @@
 """Draws a material card: python3 -m solidus_plots.material FOLDER.
 
 FOLDER holds properties.csv and flow_curves.csv as `solidus materials NAME -o FOLDER` writes them; the picture
-goes there too. A property that the material does not have gets no panel.
+goes there too. Every property that the material has is drawn, but for those that are zero.
 """
 
 import argparse
@@ -19,19 +19,45 @@ from solidus_plots.verb import sentence
 from solidus_plots.vtu import ResultError
 
 TEMPERATURE = "temperature[degC]"
-# One panel a row: title, label of the axis, factor, and the columns with their names in the legend.
-PANELS = [
-    ("Conductivity", "W/(m K)", 1, [("conductivity[W/m/K]", "")]),
-    ("Specific heat", "J/(kg K)", 1, [("specific_heat[J/kg/K]", "")]),
-    ("Enthalpy with latent heat", "kJ/kg", 1, [("enthalpy[kJ/kg]", "")]),
-    ("Solid fraction", "", 1, [("solid_fraction[1]", "")]),
-    ("Young's modulus", "GPa", 1e-3, [("young_modulus[MPa]", "")]),
-    ("Poisson's ratio", "", 1, [("poisson_ratio[1]", "")]),
-    ("Mean expansion", "10⁻⁶/K", 1e6, [("expansion[1/K]", "")]),
-    ("Flow stress", "MPa", 1, [("flow_stress[MPa]", "at zero strain"),
-                               ("saturation_stress[MPa]", "saturated")]),
-]
-OVERSTRESS = "overstress_at_rate_1e-3[MPa]"
+LOGARITHMIC = 30  # ratio of the ends of an axis from which the small values need a logarithmic one
+# Units of a card's stresses and expansions are inconvenient for some of its properties: unit, the values that take
+# another one (by the largest), its factor and its name.
+OTHER_UNITS = [("MPa", lambda largest: largest >= 1000, 1e-3, "GPa"),
+               ("1/K", lambda largest: largest < 1e-3, 1e6, "10⁻⁶/K")]
+
+
+class Panel:
+    """A property over temperature, or several stresses on one axis, since they are compared."""
+
+    def __init__(self, title, unit):
+        self.title, self.unit, self.lines = title, unit, []
+
+    def scaled(self):
+        """Factor and unit of the axis."""
+        largest = max(np.abs(values).max() for _, values in self.lines)
+        for unit, applies, factor, other in OTHER_UNITS:
+            if self.unit == unit and applies(largest):
+                return factor, other
+        return 1, "" if self.unit == "1" else self.unit
+
+
+def words(name):
+    return name.replace("_", " ").capitalize()
+
+
+def panels_of(table):
+    """Every column that is not zero throughout is drawn, those of stresses on one axis, in the order of the file."""
+    panels, stresses = [], Panel("Stresses", "MPa")
+    for header, values in table.items():
+        name, unit = header.rstrip("]").split("[")
+        if header == TEMPERATURE or not values.any():
+            continue
+        is_stress = unit == "MPa" and "stress" in name
+        panel = stresses if is_stress else Panel(words(name), unit)
+        if not panel.lines:
+            panels.append(panel)
+        panel.lines.append((words(name), values))
+    return panels
 
 
 def mushy_range(table):
@@ -42,17 +68,14 @@ def mushy_range(table):
     return temperature[fraction == 1].max(), temperature[fraction == 0].min()
 
 
-def over_temperature(axes, table, panel, mushy):
-    title, unit, factor, columns = panel
-    lines = [(factor * table[header], label) for header, label in columns if header in table]
-    if title == "Flow stress" and OVERSTRESS in table:
-        lines.append((table["flow_stress[MPa]"] + table[OVERSTRESS], "at zero strain, 10⁻³/s"))
-    for index, (values, label) in enumerate(lines):
-        axes.plot(table[TEMPERATURE], values, label=label, **style.line_style(index))
-    if len(lines) > 1:
+def over_temperature(axes, temperature, panel, mushy):
+    factor, unit = panel.scaled()
+    for index, (label, values) in enumerate(panel.lines):
+        axes.plot(temperature, factor * values, label=label, **style.line_style(index))
+    if len(panel.lines) > 1:
         axes.legend(loc="best")  # named, so that matplotlib does not warn a slow machine
-    values = np.concatenate([values for values, _ in lines])
-    if title == "Flow stress":  # the hot strength matters as much as the cold one
+    values = np.concatenate([factor * values for _, values in panel.lines])
+    if 0 < LOGARITHMIC * values.min() < values.max():  # the hot strength matters as much as the cold one
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter("{x:g}")
@@ -62,8 +85,8 @@ def over_temperature(axes, table, panel, mushy):
     if mushy:
         axes.axvspan(*mushy, color="#f2d9c9", linewidth=0, zorder=0)
     axes.margins(x=0)
-    axes.set(xlabel="Temperature [°C]", ylabel=unit)
-    axes.set_title(title, loc="left")
+    axes.set(xlabel="Temperature [°C]", ylabel=style.unit_text(unit))
+    axes.set_title(panel.title if len(panel.lines) > 1 else panel.lines[0][0], loc="left")
 
 
 def flow_curves(axes, table):
@@ -85,14 +108,14 @@ def draw(folder):
     style.setup()
     table = read_table(folder / "properties.csv", TEMPERATURE)
     curve_file = folder / "flow_curves.csv"
-    panels = [panel for panel in PANELS if panel[3][0][0] in table]
+    panels = panels_of(table)
     count = len(panels) + curve_file.exists()
     rows = -(-count // 3)
     figure, grid = plt.subplots(rows, 3, figsize=(9.6, 2.5 * rows), squeeze=False, layout="constrained")
     places = list(grid.flat)
     mushy = mushy_range(table)
     for axes, panel in zip(places, panels):
-        over_temperature(axes, table, panel, mushy)
+        over_temperature(axes, table[TEMPERATURE], panel, mushy)
     if curve_file.exists():
         flow_curves(places.pop(), read_table(curve_file, "plastic_strain[1]"))  # its legend is outside
     for axes in places[len(panels):]:

@@ -114,7 +114,8 @@ inline constexpr Column k_shot{.name = "shot",
                                .unit = "1",
                                .label = "Shot",
                                .doc = "Number of the shot, from one",
-                               .when = "with shots"};
+                               .when = "with shots",
+                               .listed = true};
 inline constexpr Column k_since_pouring{.name = "time_since_pouring",
                                         .unit = "s",
                                         .label = "Time since pouring",
@@ -124,12 +125,14 @@ inline constexpr Column k_lowest_temperature{.name = "T_min",
                                              .unit = "degC",
                                              .label = "Lowest temperature",
                                              .doc = "Over all bodies",
-                                             .background = true};
+                                             .background = true,
+                                             .listed = true};
 inline constexpr Column k_highest_temperature{.name = "T_max",
                                               .unit = "degC",
                                               .label = "Highest temperature",
                                               .doc = "Over all bodies",
-                                              .background = true};
+                                              .background = true,
+                                              .listed = true};
 inline constexpr Column k_solid_fraction{
     .name = "solid_fraction",
     .unit = "1",
@@ -137,7 +140,8 @@ inline constexpr Column k_solid_fraction{
     .doc =
         "By volume, of the poured metal (bodies that start above their solidus, but not a chill of the same "
         "metal); without such bodies, of all that can melt",
-    .when = "with metal that freezes"};
+    .when = "with metal that freezes",
+    .listed = true};
 inline constexpr Column k_stored_heat{.name = "stored_heat",
                                       .unit = "J",
                                       .label = "Stored heat",
@@ -175,20 +179,25 @@ inline constexpr Column k_heat_corrected{.name = "heat_corrected",
                                          .when = "with shots or bodies that grow",
                                          .chart = quantities::Chart::heat};
 /// Of shots.csv and of "shots" in summary.json.
-inline constexpr Column k_poured_at{
-    .name = "poured_at", .unit = "s", .label = "Poured at", .doc = "Time at which it was poured"};
+inline constexpr Column k_poured_at{.name = "poured_at",
+                                    .unit = "s",
+                                    .label = "Poured at",
+                                    .doc = "Time at which it was poured",
+                                    .listed = true};
 inline constexpr Column k_time_to_solidify{
     .name = "time_to_solidify",
     .unit = "s",
     .label = "Solid after",
     .doc = "Time from the pour to the last melt of all castings; -1 where something was liquid when it left",
     .chart = quantities::Chart::freezing_of_shots,
-    .no_value = -1};
+    .no_value = -1,
+    .listed = true};
 inline constexpr Column k_largest_change{
     .name = "largest_change",
     .unit = "K",
     .label = "Largest change of a place",
-    .doc = "The largest change of the temperature over the shot at a node of the bodies that stay"};
+    .doc = "The largest change of the temperature over the shot at a node of the bodies that stay",
+    .listed = true};
 inline constexpr Column k_periodic{.name = "periodic",
                                    .unit = "1",
                                    .label = "Periodic",

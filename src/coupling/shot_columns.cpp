@@ -19,7 +19,7 @@ constexpr Column without_chart(Column column) {
 constexpr auto of_all = [](const ShotRecord&) { return true; };
 
 constexpr auto k_shots = std::to_array<ShotColumn>({
-    {{.name = "time", .unit = "s", .label = "Ends at", .doc = "Time of its end"},
+    {{.name = "time", .unit = "s", .label = "Ends at", .doc = "Time of its end", .listed = true},
      of_all,
      [](const ShotSource& s) { return s.shot.end; }},
     {columns::k_shot, of_all, [](const ShotSource& s) { return static_cast<double>(s.shot.number); }},
@@ -29,7 +29,8 @@ constexpr auto k_shots = std::to_array<ShotColumn>({
       .unit = "degC",
       .label = "Die at its start, mean",
       .doc = "Temperature of the bodies that stay when the shot begins: mean",
-      .chart = Chart::die_of_shots},
+      .chart = Chart::die_of_shots,
+      .listed = true},
      of_all,
      [](const ShotSource& s) { return s.shot.at_pour.mean - k_zero_celsius; }},
     {{.name = "die_at_start_min",
@@ -49,7 +50,8 @@ constexpr auto k_shots = std::to_array<ShotColumn>({
     {{.name = "die_at_end_mean",
       .unit = "degC",
       .label = "Die at its end, mean",
-      .doc = "Temperature of the bodies that stay when the shot ends: mean"},
+      .doc = "Temperature of the bodies that stay when the shot ends: mean",
+      .listed = true},
      of_all,
      [](const ShotSource& s) { return s.shot.at_end.mean - k_zero_celsius; }},
     {{.name = "die_at_end_min",

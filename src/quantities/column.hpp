@@ -42,6 +42,7 @@ struct Column {
   std::optional<double> no_value = {};  ///< stands for "nothing to say"; absent: every number counts
   bool background = false;              ///< a legend with many lines has it switched off
   bool logarithmic = false;             ///< its chart has a logarithmic axis
+  bool listed = false;                  ///< the report shows it in its list of steps or shots, row by row
 };
 
 /// What a row of a table has in a column.

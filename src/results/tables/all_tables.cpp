@@ -38,6 +38,7 @@ Json column_json(const Column& column) {
   if (column.no_value) row.add("no_value", *column.no_value);
   if (column.background) row.add("background", true);
   if (column.logarithmic) row.add("logarithmic", true);
+  if (column.listed) row.add("listed", true);
   return row;
 }
 

@@ -13,6 +13,8 @@ export interface Column {
   no_value?: number;
   background?: boolean;
   logarithmic?: boolean;
+  /** The list of steps or shots shows it, row by row. */
+  listed?: boolean;
 }
 export interface Declared {
   tables: Record<string, Column[]>;
@@ -51,6 +53,11 @@ export function labelOfColumn(table: string, header: string): string {
 export function headOfColumn(table: string, header: string): string {
   const unit = unitText(split(header).unit);
   return labelOfColumn(table, header) + (unit ? ` [${unit}]` : "");
+}
+
+/** Headers of a table that its list of rows shows, in the order of the file. */
+export function listedHeaders(table: string, headers: string[]): string[] {
+  return headers.filter((header) => columnOf(table, header)?.listed === true);
 }
 
 /** Headers of all runs but those of time, stage and cycle. */

@@ -1,6 +1,6 @@
 /** Castings and the die from shot to shot. */
 import { chart } from "../charts";
-import { charts, labelOfColumn, linesOf } from "../columns";
+import { charts, columnOf, labelOfColumn, linesOf, listedHeaders, split } from "../columns";
 import { byId, h, table } from "../dom";
 import { duration, short, unitText } from "../quantities";
 import type { Page, Run } from "../run";
@@ -13,23 +13,22 @@ function shotCharts(page: Page): Node {
 }
 
 function shots(run: Run, bench: Workbench): Content[] {
-  const t = run.table("shots"), n = t?.numbers("shot"), end = t?.numbers("time"), poured = t?.numbers("poured_at");
-  if (!t || !n || !end || !poured) return [h("p", { class: "hint" }, "This run has no shots.")];
-  const cell = (name: string, i: number, unit: string) => {
-    const v = t.numbers(name)?.[i];
-    return v === undefined ? "–" : `${short(v)} ${unit}`;
-  };
-  const heads = ["shot[1]", "poured_at[s]", "time[s]", "time_to_solidify[s]", "die_at_start_mean[degC]", "die_at_end_mean[degC]", "largest_change[K]"].map((x) => labelOfColumn("shots", x));
-  const rows = Array.from({ length: t.rows }, (_, i) => {
-    const solid = t.numbers("time_to_solidify")?.[i] ?? -1;
-    const go = bench.ready ? h("button", { class: "link", title: "Show its end in the picture", click: () => {
-      bench.goTo(end[i]);
+  const t = run.table("shots");
+  if (!t?.rows) return [h("p", { class: "hint" }, "This run has no shots.")];
+  // The shot leads its row; the end of a shot goes to that moment in the picture.
+  const heads = ["shot[1]", ...listedHeaders("shots", t.headers).filter((x) => x !== "shot[1]")];
+  const cell = (header: string, i: number) => {
+    const value = t.numbers(header)?.[i], { name, unit } = split(header);
+    if (value === undefined) return "–";
+    if (value === columnOf("shots", header)?.no_value) return name === "time_to_solidify" ? "left with melt" : "–";
+    if (name === "time" && bench.ready) return h("button", { class: "link", title: "Show its end in the picture", click: () => {
+      bench.goTo(value);
       byId("view").scrollIntoView({ behavior: "smooth" });
-    } }, duration(end[i])) : duration(end[i]);
-    return [`${n[i]}`, duration(poured[i]), go, solid < 0 ? "left with melt" : duration(solid), cell("die_at_start_mean", i, "°C"), cell("die_at_end_mean", i, "°C"), cell("largest_change", i, "K"),
-      t.numbers("periodic")?.[i] ? "periodic" : ""];
-  });
-  return [h("div", { style: "height:12px" }), table([...heads, ""], rows)];
+    } }, duration(value));
+    return unit === "s" ? duration(value) : unit === "1" ? short(value) : `${short(value)} ${unitText(unit)}`;
+  };
+  const rows = Array.from({ length: t.rows }, (_, i) => [...heads.map((x) => cell(x, i)), t.numbers("periodic")?.[i] ? "periodic" : ""]);
+  return [h("div", { style: "height:12px" }), table([...heads.map((x) => labelOfColumn("shots", x)), ""], rows)];
 }
 
 addSection({ id: "shots", title: "Shots", place: 80, build: (page, bench) => (page.runs.some((r) => r.table("shots")?.rows) ? [shotCharts(page), perRun(page, (r) => shots(r, bench))] : []) });

@@ -1,6 +1,6 @@
 /** The sizes of the steps, what limited them, and what they cost. */
 import { chart } from "../charts";
-import { charts, headOfColumn, linesOf } from "../columns";
+import { charts, headOfColumn, linesOf, listedHeaders } from "../columns";
 import { h, table } from "../dom";
 import { triesText } from "../head";
 import { short, unitText } from "../quantities";
@@ -18,8 +18,7 @@ function stepTables(run: Run): Content[] {
   if (!t || !time || !dt || !reason) return [h("p", { class: "hint" }, "This run has no table of steps.")];
   const counts = new Map<string, number>();
   for (const r of reason) counts.set(r, (counts.get(r) ?? 0) + 1);
-  const shownColumns = ["heat_iterations[1]", "mechanics_iterations[1]", "temperature_error[K]", "T_min[degC]", "T_max[degC]", "solid_fraction[1]"];
-  const columns = shownColumns.flatMap((header) => {
+  const columns = listedHeaders("steps", t.headers).flatMap((header) => {
     const column = t.numbers(header);
     return column ? [{ text: headOfColumn("steps", header), column }] : [];
   });
