@@ -90,8 +90,13 @@ Patches::Around Patches::around(Index node) const {
 
 Patches::Gradient Patches::gradient(const Element& e, std::span<const double> values) const {
   const Centre& centre = centres_[as_size(e.block)];
-  const std::span<const Index> element = nodes(e);
-  const std::size_t dim = centre.gradients.size() / centre.values.size();
+  const bool solid = centre.gradients.size() == 3 * centre.values.size();
+  return solid ? gradient_in<3>(centre, nodes(e), values) : gradient_in<2>(centre, nodes(e), values);
+}
+
+template <std::size_t dim>
+Patches::Gradient Patches::gradient_in(const Centre& centre, std::span<const Index> element,
+                                       std::span<const double> values) const {
   Matrix j{};                     // J_ij = ∂x_i/∂ξ_j
   std::array<double, 3> slope{};  // ∂v/∂ξ_j
   // At the centre of the element: Jacobian, slope in reference coordinates and, in axisymmetry, the radius.
@@ -106,7 +111,7 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
     }
   }
   // In the plane the third direction is perpendicular and of unit length.
-  if (dim == 2) j[2][2] = 1;
+  if constexpr (dim == 2) j[2][2] = 1;
   // With the cofactors c of J: J⁻¹_ki = c_ik/det J, so ∂v/∂x_i = Σ_k c_ik ∂v/∂ξ_k / det J.
   const auto cofactor = [&j](std::size_t a, std::size_t b) {
     const std::size_t a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
@@ -114,9 +119,12 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
   };
   // The determinant times the weight of the centre is the element's volume.
   const double determinant = j[0][0] * cofactor(0, 0) + j[0][1] * cofactor(0, 1) + j[0][2] * cofactor(0, 2);
+  const double inverse = 1 / determinant;
   Gradient gradient;
-  for (std::size_t i = 0; i < dim; ++i)
-    for (std::size_t k = 0; k < dim; ++k) gradient.value[i] += cofactor(i, k) * slope[k] / determinant;
+  for (std::size_t i = 0; i < dim; ++i) {
+    for (std::size_t k = 0; k < dim; ++k) gradient.value[i] += cofactor(i, k) * slope[k];
+    gradient.value[i] *= inverse;
+  }
   gradient.volume = centre.weight * determinant;
   if (kind_ == AnalysisKind::axisymmetric) gradient.volume *= 2 * std::numbers::pi * radius;
   return gradient;

@@ -82,6 +82,9 @@ class Patches {
     std::vector<double> values, gradients;  ///< N_a; ∂N_a/∂ξ_i as [node][dimension]
     double weight = 0;                      ///< volume of the reference shape
   };
+  template <std::size_t dim>
+  Gradient gradient_in(const Centre& centre, std::span<const Index> element,
+                       std::span<const double> values) const;
   Element element(std::uint32_t number) const {
     Index block = 0;
     while (number >= first_[as_size(block) + 1]) ++block;
