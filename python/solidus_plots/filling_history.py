@@ -44,6 +44,20 @@ def with_heat_of(before, after, temperature):
     return temperature + share * (hot - temperature)
 
 
+def with_returned_heat(missing, metal, solid, temperature, melt):
+    """Temperatures [K] and frozen shares of cubes after missing heat has been given back, and how much of it was. The solver loses heat
+    in cubes where metal freezes while it flows: that metal is warmed up to its freezing temperature, each cube by the same part of what it
+    lacks, and then melts in the same way.
+    missing: in J/kg times cubes, as heat times shares is; nothing is given back if it is not positive."""
+    lacks = melt.heat * metal * (melt.freezing - temperature).clip(0)
+    frozen = melt.latent * solid
+    warmed = min(1.0, missing / lacks.sum()) if missing > 0 and lacks.any() else 0.0
+    rest = missing - warmed * lacks.sum()
+    melted = min(1.0, rest / frozen.sum()) if rest > 0 and frozen.any() else 0.0
+    temperature = np.where(lacks > 0, temperature + warmed * (melt.freezing - temperature), temperature)
+    return temperature, (1 - melted) * solid, warmed * lacks.sum() + melted * frozen.sum()
+
+
 class History:
     def __init__(self, folder, mould, melt, made_of):
         n = len(mould.cavity.cubes.cells)
@@ -51,6 +65,7 @@ class History:
         self.frame, self.name, self.time, self.full = 0, "0", 0.0, 0.0
         self.came = [(0.0, 0.0)]  # times, and the volumes that have come through the gate until then [m3]
         self.corrected = 0.0  # volume that was handed to other cubes, of the cavity's
+        self.returned = 0.0  # heat that the solver lost where metal freezes, and that was given back there [J]
         self.fill_time, self.arrival = np.full(n, np.nan), np.full(n, np.nan)
         self.front_velocity = np.full((n, 3), np.nan)
         self.temperature, self.metal, self.solid = np.full(n, mould.air), np.zeros(n), np.zeros(n)
@@ -77,7 +92,9 @@ class History:
         for wall in self._mould.walls:
             if not wall.insulating():
                 wall.end(moments, self.metal, self._melt.conductivity, dictionaries.gas_conductivity())
-        self._correct_volume(run)
+        self._correct_volume()
+        self._correct_heat()
+        self._hand_back(run)
         self._observe(run)
         self.view.add(self.time, self.full, self.metal, self.temperature, self.velocity)
         self.frame = until
@@ -119,7 +136,7 @@ class History:
         far = both & (np.abs(temperature - self._melt.freezing) > NEAR)
         self.mush = [self.mush[0] + int(both.sum()), self.mush[1] + int(far.sum())]
 
-    def _correct_volume(self, run):
+    def _correct_volume(self):
         """The solver scales its three shares to a sum of one in every step, by which metal comes and goes at the front, and a cube from
         which air leaves faster than it comes ends up with more metal than it can hold. Both are set right after each stretch."""
         n = len(self.metal)
@@ -129,6 +146,19 @@ class History:
         change = self.metal - self._raw
         self.corrected += float(max(change.clip(0).sum(), (-change).clip(0).sum())) / n
         self.temperature = with_heat_of(self._raw, self.metal, self.temperature)
+
+    def _correct_heat(self):
+        """Shares that the solver scales bring metal into cubes without its heat, and each gets the temperature of its cube: cold ones, where
+        metal freezes, grow and hold ever more cold metal. What has come through the gate, less what the walls have taken and the metal
+        still has, is given back there."""
+        melt, unit = self._melt, self._mould.cavity.cubes.edge ** 3 * self._melt.density
+        have = (melt.heat * (self.temperature - melt.freezing) * self.metal + melt.latent * (self.metal - self.solid)).sum()
+        missing = (self.heat_that_came() - self.heat_of_walls()) / unit - have
+        self.temperature, self.solid, returned = with_returned_heat(missing, self.metal, self.solid, self.temperature, melt)
+        self.returned += float(returned) * unit
+
+    def _hand_back(self, run):
+        """The corrected fields go into the files from which the solver continues."""
         run.change_cells(self.name, "T", self.temperature)
         for field, values in (("gas", 1 - self.metal), ("melt", self.metal - self.solid), ("solid", self.solid)):
             run.change_cells(self.name, f"alpha.{field}", values)
@@ -149,6 +179,11 @@ class History:
         times, volumes = zip(*self.came)
         return float(np.interp(time, times, volumes))
 
+    def heat_that_came(self):
+        """Through the gate, counted from metal that has just frozen [J]."""
+        melt = self._melt
+        return self.flowed(self.time) * melt.density * (melt.heat * (self._mould.pouring - melt.freezing) + melt.latent)
+
     def heat_of_walls(self):
         return float(sum(wall.heat.sum() for wall in self._mould.walls))
 
@@ -162,7 +197,7 @@ class History:
     def _save(self):
         walls = {f"{wall.name}.{what}": getattr(wall, what) for wall in self._mould.walls for what in ("contact", "heat")}
         numbers = {"frame": self.frame, "name": self.name, "time": self.time, "full": self.full, "corrected": self.corrected,
-                   "came": self.came, "resistance": self._mould.drive.resistance,
+                   "returned": self.returned, "came": self.came, "resistance": self._mould.drive.resistance,
                    "made_of": self.made_of, "rows": self.rows, "mush": self.mush}
         target = self._folder / STATE
         with target.with_suffix(".part").open("wb") as out:
@@ -182,7 +217,7 @@ class History:
                 return False
             self.frame, self.name, self.time, self.full = (numbers[key] for key in ("frame", "name", "time", "full"))
             self.corrected, self.rows, self.levels = numbers["corrected"], numbers["rows"], list(kept["levels"])
-            self.mush = numbers["mush"]
+            self.mush, self.returned = numbers["mush"], numbers["returned"]
             self.view.restore(kept)
             self.came = [tuple(entry) for entry in numbers["came"]]
             self._mould.drive.resistance = numbers["resistance"]

@@ -167,9 +167,8 @@ def balances(mould, melt, history):
     edge3 = mould.cavity.cubes.edge ** 3
     came, there = history.flowed(history.time), float(history.metal.sum() * edge3)
     lost = float((history.heat_lost() * history.metal).sum() * edge3 * melt.density)
-    brought = came * melt.density * (melt.heat * (mould.pouring - melt.freezing) + melt.latent)
-    return {"came": came, "there": there, "lost": lost, "walls": history.heat_of_walls(), "brought": brought,
-            "corrected": history.corrected}
+    return {"came": came, "there": there, "lost": lost, "walls": history.heat_of_walls(), "brought": history.heat_that_came(),
+            "corrected": history.corrected, "returned": history.returned}
 
 
 def places_of(mould, history):
@@ -227,9 +226,12 @@ def answers(mould, history, ended, balance, places):
                      "rate help")
     lines.append(f"heat that the metal has lost {balance['lost']:.5g} J, that walls have taken {balance['walls']:.5g} J: a difference of "
                  f"{100 * (balance['lost'] - balance['walls']) / balance['brought']:+.2f} % of the heat that came above solid metal")
+    if balance["returned"] > MUCH_HEAT * balance["brought"]:
+        lines.append(f"{100 * balance['returned'] / balance['brought']:.2g} % of it was given back to metal that freezes on its way, where the solver "
+                     "loses heat: temperatures there are rough; more cells, hotter metal or a faster filling help")
     if abs(balance["lost"] - balance["walls"]) > MUCH_HEAT * balance["brought"]:
-        lines.append(f"that is more than {100 * MUCH_HEAT:.0f} %: where metal freezes at the front the solver loses heat, and the temperatures there are too "
-                     "low; more cells, hotter metal or a faster filling help")
+        lines.append(f"that is more than {100 * MUCH_HEAT:.0f} %: where metal freezes at the front the solver loses or gains heat, and the "
+                     "temperatures there are wrong; more cells, hotter metal or a faster filling help")
     mush, far = history.mush
     if mush > 0:
         lines.append(f"freezing metal was within {NEAR:.0f} K of the temperature at which it is half solid in {100 * (1 - far / mush):.0f} % of its cubes and "

@@ -17,7 +17,7 @@ from solidus_plots import fill, filling_film, filling_flow, filling_gates, filli
 from solidus_plots.filling_age import Ages
 from solidus_plots.filling_cavity import cavity_of
 from solidus_plots.filling_drive import Drive, Tilt
-from solidus_plots.filling_history import full_volume, with_heat_of
+from solidus_plots.filling_history import full_volume, with_heat_of, with_returned_heat
 from solidus_plots.filling_mesh import Cubes, inner_faces, write_mesh
 from solidus_plots.filling_results import places_of, start_of, state_at
 from solidus_plots.filling_view import View, to_bytes
@@ -430,6 +430,31 @@ class Volumes(unittest.TestCase):
         grown = with_heat_of(np.array([1.0, 0.5]), np.array([1.0, 0.8]), np.array([900.0, 600.0]))
         self.assertAlmostEqual(grown[1], (0.5 * 600 + 0.3 * 800) / 0.8, delta=1e-9)
         self.assertEqual(with_heat_of(before, before, temperature).tolist(), temperature.tolist())
+
+    def test_heat_that_the_solver_lost_goes_to_metal_that_freezes(self):
+        """Cold metal is warmed up to its freezing temperature, then what has frozen melts; hot metal and what is too much stay."""
+        melt = dictionaries.Melt(7200.0, 900.0, 240e3, 1400.0, 30.0, 30.0, 2e-3, 1.0)
+        metal, solid = np.array([1.0, 0.8, 0.5, 0.2]), np.array([0.0, 0.6, 0.5, 0.0])
+        temperature = np.array([1500.0, 1000.0, 1300.0, 1390.0])
+
+        def heat(temperature, solid):
+            return (melt.heat * metal * temperature + melt.latent * (metal - solid)).sum()
+
+        lacks = (melt.heat * metal * (melt.freezing - temperature).clip(0)).sum()
+        for missing in (0.3 * lacks, lacks + 50e3):
+            warm, frozen, returned = with_returned_heat(missing, metal, solid, temperature, melt)
+            self.assertAlmostEqual(returned, missing, delta=1e-9 * missing)
+            self.assertAlmostEqual(heat(warm, frozen) - heat(temperature, solid), missing, delta=1e-9 * heat(warm, frozen))
+            self.assertEqual(warm[0], 1500)
+            self.assertTrue(((warm[1:] <= melt.freezing) & (warm[1:] > temperature[1:])).all())
+            self.assertTrue((frozen <= solid).all())
+        # More than cold and frozen metal can take is not given to hot metal; metal that has too much keeps it.
+        warm, frozen, returned = with_returned_heat(1e9, metal, solid, temperature, melt)
+        self.assertEqual((warm[1:].tolist(), frozen.sum()), ([melt.freezing] * 3, 0))
+        self.assertAlmostEqual(returned, lacks + melt.latent * solid.sum(), delta=1e-6)
+        for missing in (0.0, -1e5):
+            warm, frozen, returned = with_returned_heat(missing, metal, solid, temperature, melt)
+            self.assertEqual((warm.tolist(), frozen.tolist(), returned), (temperature.tolist(), solid.tolist(), 0))
 
     def test_without_a_front_the_volume_stays(self):
         self.assertEqual(full_volume(np.array([1.0, 0.0]), 1.5).tolist(), [1, 0])
