@@ -43,7 +43,7 @@ Pour pour(const Element& element, mechanics::Mapping mapping, const Table& visco
       element, mapping, is_solid ? std::array{3, 8, 3} : std::array{6, 16, 3}, viscosity);
   verification::Assembly assembly(c, n_steps * dt);
   const material::Material& metal = c.materials[0];
-  criteria::StrainCriteria strains(c.mesh, c.kind, c.materials);
+  criteria::StrainCriteria strains(c.mesh, c.mesh, c.kind, c.materials);
   coupling::State state = assembly.start();
   assembly.scheme().synchronise(state);
   criteria::CriterionRecord record = strains.initial({0, state.heat, state.mechanics});

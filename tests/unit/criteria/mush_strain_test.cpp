@@ -42,7 +42,7 @@ struct Values {
 Values freeze(const std::vector<material::Material>& materials, AnalysisKind kind, Shape shape, double rate,
               double gradient = k_gradient) {
   const mesh::Mesh mesh = test::make_mesh({.shape = shape, .cells = {3, 2, 2}, .distortion = 0.1});
-  MushStrain criterion(mesh, kind, materials);
+  MushStrain criterion(mesh, mesh, kind, materials);
   const auto components = static_cast<std::size_t>(displacement_components(kind));
   struct Moment {
     heat::ThermalState heat;

@@ -51,7 +51,7 @@ class Bar {
       : mesh_(test::make_mesh({.shape = kind.shape, .cells = {3, 2, 2}, .distortion = 0.1})),
         kind_(kind.analysis),
         materials_{metal(melts)},
-        criteria_(mesh_, kind_, materials_) {
+        criteria_(mesh_, mesh_, kind_, materials_) {
     heat_.temperature.assign(mesh_.x.size(), k_hot);
     mechanics_.displacement.assign(mesh_.x.size() * components(), 0.0);
     record_ = criteria_.initial({0, heat_, mechanics_});
