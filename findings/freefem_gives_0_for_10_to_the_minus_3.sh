@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What:      FreeFEM takes a power of two whole numbers for a whole number: 10^-3 is 0, and 34*10^-3 is 0, as 1/2 is. 10.^-3 and 1e-3 are
-#            0.001. A variable of type "real" does not change that: the power is rounded before it is assigned.
+#            0.001. A variable of type "real" does not change that.
 # Versions:  FreeFEM 4.15 (Debian 13)
 # Seen on:   1 December 2026, Debian 12, x86-64
 # Matters:   a conductance, a gap or a time in SI units is 0, and the equation is solved without it: no exchange of heat, no message.

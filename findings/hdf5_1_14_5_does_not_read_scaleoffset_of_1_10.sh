@@ -4,7 +4,7 @@
 #            files of 1.10.8 and in its own, which it writes without an error: no value of that chunk is to be had.
 # Versions:  HDF5 1.10.8 with h5py 3.7.0 (Debian 12), HDF5 1.14.5 with h5py 3.13.0 (Debian 13)
 # Seen on:   1 December 2026, Debian 12, x86-64
-# Matters:   measured fields of a year cannot be read after an update, and new ones are lost when they are written.
+# Matters:   measured fields cannot be read after an update, and new ones are lost when they are written.
 # Solidus:   does not use this filter.
 . "$(dirname "${BASH_SOURCE[0]}")/common/root.sh"
 
