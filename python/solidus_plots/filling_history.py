@@ -217,7 +217,7 @@ class History:
                 return False
             self.frame, self.name, self.time, self.full = (numbers[key] for key in ("frame", "name", "time", "full"))
             self.corrected, self.rows, self.levels = numbers["corrected"], numbers["rows"], list(kept["levels"])
-            self.mush, self.returned = numbers["mush"], numbers["returned"]
+            self.mush, self.returned = numbers["mush"], numbers.get("returned", 0.0)  # absent in states of 0.2.0
             self.view.restore(kept)
             self.came = [tuple(entry) for entry in numbers["came"]]
             self._mould.drive.resistance = numbers["resistance"]
