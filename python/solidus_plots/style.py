@@ -5,6 +5,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import font_manager  # noqa: E402  (after the choice of the backend)
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.text import Text  # noqa: E402
 
 from solidus_plots.vtu import ResultError  # noqa: E402
 
@@ -83,8 +84,16 @@ def convert(values, unit, wanted):
     return factor * values + offset
 
 
+def in_font(figure):
+    """The font of the pictures has no bold script L, as labels of the functional of stability have: the plain script one is drawn."""
+    for text in figure.findobj(Text):
+        if "𝓛" in text.get_text():
+            text.set_text(text.get_text().replace("𝓛", "ℒ"))
+
+
 def save(figure, folder, name, vector):
     """Writes NAME.png (and NAME.svg for line plots) and closes the figure."""
+    in_font(figure)
     files = [folder / f"{name}.png"] + ([folder / f"{name}.svg"] if vector else [])
     for file in files:
         # Without a date the same results give the same files.

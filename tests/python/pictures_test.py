@@ -3,12 +3,14 @@
 from pathlib import Path
 import tempfile
 import unittest
+import warnings
 
 from matplotlib import image
+import matplotlib.pyplot as plt
 import numpy as np
 
 from blocks import box
-from solidus_plots import sections, style, surfaces
+from solidus_plots import columns, sections, style, surfaces
 from solidus_plots.cells import HEX, TET
 from solidus_plots.moments import Moments
 from solidus_plots.plots_file import read_spec
@@ -32,6 +34,19 @@ class Run(Moments):
             grid.cell_data["stress"] = np.tile(np.linspace(-1e6, 1e6, len(grid.cell_types))[:, None], 6)
             grid.units = {"temperature": "K", "displacement": "m", "von_mises": "Pa", "stress": "Pa"}
             self._grids[index] = grid
+
+
+class Font(unittest.TestCase):
+    def test_labels_of_columns_are_drawn_without_missing_characters(self):
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("error")
+            labels = [row["label"] for rows in columns._TABLES.values() for row in rows]
+            self.assertIn("𝓛, tolerance", labels)
+            figure, axes = plt.subplots()
+            for label in labels:
+                axes.plot([0, 1], label=label)
+            axes.legend()
+            self.assertEqual([file.name for file in style.save(figure, Path(folder), "labels", vector=False)], ["labels.png"])
 
 
 class Wrong(unittest.TestCase):
