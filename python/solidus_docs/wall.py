@@ -26,7 +26,8 @@ from solidus_docs import wrap
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "docs" / "validation"
 KEYS = {"title": str, "order": int, "kind": str, "source": str, "licence": str, "read": str, "assumed": str, "fitted": str, "said": str,
-        "case": str, "coarse": list, "factor": (int, float), "picture": str}
+        "case": str, "coarse": list, "columns": dict, "factor": (int, float), "picture": str}
+KINDS = ("values", "order", "curves", "liquidus", "card")
 
 
 def experiments():
@@ -44,8 +45,10 @@ def read_experiment(file):
     for key in ("title", "order", "kind", "source", "licence", "read", "assumed", "fitted", "said"):
         if key not in spec:
             raise ValueError(f"{file}: the key '{key}' is missing")
-    if spec["kind"] not in ("values", "curves", "liquidus", "density"):
-        raise ValueError(f"{file}: kind is '{spec['kind']}'; it may be values, curves, liquidus or density")
+    if spec["kind"] not in KINDS:
+        raise ValueError(f"{file}: kind is '{spec['kind']}'; it may be {', '.join(KINDS)}")
+    if (spec["kind"] == "order") != ("columns" in spec):
+        raise ValueError(f"{file}: 'columns' belongs to kind = \"order\"")
     spec["folder"] = file.parent
     return spec
 
@@ -87,6 +90,12 @@ class Program:
         return {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
+def history_column(history, name):
+    if name not in history:
+        raise ValueError(f"there is no column '{name}' in history.csv; there are {', '.join(history)}")
+    return history[name]
+
+
 def width(history, temperature):
     """Twice the distance from the middle at which the highest temperature of probes T_..um is this one."""
     reached = sorted((float(name[2:].split("um")[0]), max(values)) for name, values in history.items() if re.match(r"T_[\d.]+um\[", name))
@@ -98,17 +107,15 @@ def width(history, temperature):
 
 def fall_between(history, column, of, start, end):
     """What `column` loses while `of` cools from `start` to `end`, by straight lines between the rows of the history."""
-    for name in (column, of):
-        if name not in history:
-            raise ValueError(f"there is no column '{name}' in history.csv; there are {', '.join(history)}")
+    lost, cooling = history_column(history, column), history_column(history, of)
     found = []
     for value in (start, end):
-        rows = [i for i in range(1, len(history[of])) if history[of][i - 1] > value >= history[of][i]]
+        rows = [i for i in range(1, len(cooling)) if cooling[i - 1] > value >= cooling[i]]
         if not rows:
             raise ValueError(f"'{of}' does not cool past {value:g} in the run")
-        last, now = history[of][rows[0] - 1], history[of][rows[0]]
+        last, now = cooling[rows[0] - 1], cooling[rows[0]]
         share = (last - value) / (last - now)
-        found.append(history[column][rows[0] - 1] * (1 - share) + history[column][rows[0]] * share)
+        found.append(lost[rows[0] - 1] * (1 - share) + lost[rows[0]] * share)
     return found[0] - found[1]
 
 
@@ -119,9 +126,7 @@ def answer(row, history, factor):
     if between:
         return fall_between(history, between[1], between[4], float(between[2]), float(between[3])) * factor
     what, column = re.match(r"(largest of |fall of |)(.*)", row["column"]).groups()
-    if column not in history:
-        raise ValueError(f"there is no column '{column}' in history.csv; there are {', '.join(history)}")
-    values = history[column]
+    values = history_column(history, column)
     return {"": values[-1], "largest of ": max(values), "fall of ": max(values) - values[-1]}[what] * factor
 
 
@@ -165,17 +170,54 @@ def compute_liquidus(spec, program, _):
     return found
 
 
-def compute_density(spec, program, _):
-    """The density on the card that the column `card` names."""
+def property_of(text, name, at):
+    """A constant, or a table at a temperature [degC], of what `solidus materials CARD` prints."""
+    found = re.search(rf"^  {re.escape(name)} +(?:([-\d.e+]+)|of temperature.*\n((?: +[-\d.]+ degC +[-\d.e+]+\n)+))", text, re.MULTILINE)
+    if found is None:
+        raise ValueError(f"the card has no number or table '{name}'")
+    if found[1]:
+        return float(found[1])
+    points = [tuple(map(float, line.split(" degC "))) for line in found[2].splitlines()]
+    for (cold, low), (hot, high) in zip(points, points[1:]):
+        if cold <= at <= hot:
+            return low + (high - low) * (at - cold) / (hot - cold)
+    raise ValueError(f"'{name}' of the card has no value at {at:g} degC")
+
+
+def compute_card(spec, program, _):
+    """The property of a material card that the columns `card`, `property` and `at` (a temperature in degC, or empty) name."""
     found = []
     for row in read_measured(spec["folder"] / "measured.csv"):
-        value = float(re.search(r"^ +density +([\d.]+) kg/m3", program("materials", row["card"]), re.MULTILINE)[1])
+        value = property_of(program("materials", row["card"]), row["property"], float(row["at"] or "nan")) * spec.get("factor", 1)
         found.append({"name": row["name"], "measured": row["measured"], "error": row["error"], "unit": row["unit"],
                       "computed": value, "computed_error": 0.0})
     return found
 
 
-COMPUTE = {"values": compute_values, "curves": compute_curves, "liquidus": compute_liquidus, "density": compute_density}
+def distinguished(rows):
+    """Pairs (less, greater) of rows whose measured values differ by more than both errors."""
+    return [(low, high) for low in rows for high in rows if low["measured"] + low["error"] < high["measured"] - high["error"]]
+
+
+def compute_order(spec, program, scratch):
+    """For each criterion in `columns`, the number of pairs that it ranks as measured: high where the measured value is low."""
+    rows = read_measured(spec["folder"] / "measured.csv")
+    for row in rows:
+        sets = [part for part in row["set"].split(";") if part]
+        row["history"] = program.history(spec["folder"] / spec.get("case", "case.toml"), sets, scratch / "fine")
+    pairs = distinguished(rows)
+    found = []
+    for name, column in spec["columns"].items():
+        last = [history_column(row["history"], column)[-1] for row in rows]
+        value = {row["name"]: number for row, number in zip(rows, last)}
+        right = sum(value[low["name"]] > value[high["name"]] for low, high in pairs)
+        found.append({"name": name, "measured": float(len(pairs)), "error": 0.0, "unit": "pairs", "computed": float(right),
+                      "computed_error": 0.0})
+    return found
+
+
+COMPUTE = {"values": compute_values, "curves": compute_curves, "liquidus": compute_liquidus, "card": compute_card,
+           "order": compute_order}
 
 
 def run(names):

@@ -204,6 +204,7 @@ def calibrate(options, say):
         say(f"  {'the search has not ended' if not found.converged else 'the search has ended'}: {found.message}")
     say(f"{model.runs} runs{f', {model.with_derivatives} of them with derivatives' if model.dear else ''}"
         f"{f', after {coarse.runs} coarse ones' if coarse else ''}, {cost['seconds']:.0f} s; results in {folder}")
+    say(f"Next: solidus run {folder}/fitted.toml -o {folder}/fitted --report, whose report has the measured curves")
 
 
 def outside_text(model, readings, theta, end):
@@ -224,7 +225,7 @@ def case_folder(case):
 
 
 def write(calibration, options, model, readings, found, statistics, cost, folder):
-    document = calibrate_result.document(calibration, options.measured, statistics, found, cost)
+    document = calibrate_result.document(calibration, options.measured, readings, statistics, found, cost)
     (folder / "calibrate.json").write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
     calibrate_result.write_residuals(folder / "residuals.csv", readings, found)
     fitted = resolve(options.case, model.words_of(found.theta))

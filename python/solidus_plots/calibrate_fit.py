@@ -24,6 +24,7 @@ SMALL_STEP = 1e-8  # of an unknown, over its size, with which the search ends
 SMALL_GAIN = 1e-4  # promise of a step, over the mean square of a residual: a hundredth of a standard deviation
 NEGLIGIBLE = 1e-8  # the same, absolute: no unknown moves by more than 1.4e-4 of its own standard deviation
 ROUGH = 100  # times these two, with which a search of runs that are only to find a start ends
+NEARLY = 10  # times these two, below which what the next step is expected to promise makes this one the last
 TRIES = 8  # steps in a row that do not lower F
 
 
@@ -139,7 +140,7 @@ def fit(search, loss="linear", loss_scale=2.0, start=None, rough=False):
     jacobian = search.derivative(x)
     rows = search.rows(x, True)
     value, damping, converged, message = sum_of(rows, x), LAMBDA, False, f"the {search.most_runs} runs are used up"
-    failed, fresh, kept = 0, True, 0.0
+    failed, fresh, kept, promised = 0, True, 0.0, np.inf
     try:
         while True:
             weights = weights_of(loss, loss_scale, rows)
@@ -162,8 +163,11 @@ def fit(search, loss="linear", loss_scale=2.0, start=None, rough=False):
                 # The last word is that of derivatives at the point itself.
                 jacobian, fresh = search.derivative(x), True
                 continue
-            # Derivatives that cost more than the run itself are updated while the linear model keeps its promise.
-            wanted = search.model.forward and (not search.model.dear or kept < GOOD)
+            # Derivatives that cost more than the run itself are updated while the linear model keeps its promise. Those of the
+            # last point are needed in the end: a step that is expected to be the last brings them, so that its run is not repeated.
+            last = promise * min(1.0, promise / promised) <= NEARLY * max(SMALL_GAIN * 2 * max(value - promise, 0.0) / max(n, 1), NEGLIGIBLE)
+            wanted = search.model.forward and (not search.model.dear or kept < GOOD or (last and not rough))
+            promised = promise
             try:
                 rows_there = search.rows(target, wanted)
             except RunFailed as failure:  # the physics of a far step may not go through: a shorter one is taken

@@ -8,6 +8,7 @@ import numpy as np
 
 from solidus_plots.calibrate_statistics import NEIGHBOURS
 from solidus_plots.compare import as_text, write_csv
+from solidus_plots.history import Table
 
 
 def digits(value, spread):
@@ -69,7 +70,21 @@ def text(statistics, fit, confidence):
     return "\n".join(lines)
 
 
-def document(calibration, measured, statistics, fit, cost):
+def curves(readings, fit):
+    """Measured and computed values of each observation over the time of the case, for the report; what is compared at the end
+    of the run has no time."""
+    found, at = [], 0
+    for r in readings:
+        own = fit.residuals[at:at + len(r.values)]
+        at += len(r.values)
+        if not r.at_end:
+            found.append({"name": r.name, "unit": Table.unit(r.header), "time": [round(float(t), 6) for t in r.time],
+                          "measured": [float(f"{v:.8g}") for v in r.values],
+                          "computed": [float(f"{v:.8g}") for v in r.values + own]})
+    return found
+
+
+def document(calibration, measured, readings, statistics, fit, cost):
     """calibrate.json: numbers in the units of the file."""
     return {"title": calibration.title, "measured": str(measured), "confidence": calibration.confidence,
             "converged": fit.converged, "message": fit.message, **cost,
@@ -80,7 +95,7 @@ def document(calibration, measured, statistics, fit, cost):
             "residuals_over_noise": statistics.scale, "noise_stated": statistics.stated,
             "degrees_of_freedom": statistics.freedom, "quantile": statistics.quantile,
             "not_seen": [{"deviation": None if np.isinf(d) else d, "combination": shares} for d, shares in statistics.unseen],
-            "observations": statistics.series}
+            "observations": statistics.series, "curves": curves(readings, fit)}
 
 
 def write_residuals(path, readings, fit):

@@ -20,7 +20,7 @@ class Wall(ProgramTest):
 
     def test_quick_rows_come_out_again(self):
         kept = json.loads((SOURCES / "docs/validation/wall.json").read_text())
-        for name in ("contraction", "arm_spacing", "liquidus", "iron_density"):
+        for name in ("contraction", "arm_spacing", "liquidus", "iron_density", "iron_expansion", "weld_cracking"):
             spec, program = wall.experiments()[name], wall.Program(PROGRAM)
             found = wall.COMPUTE[spec["kind"]](spec, program, Path(self.folder))
             for now, then in zip(found, kept[name]["values"], strict=True):
@@ -39,6 +39,20 @@ class Wall(ProgramTest):
             wall.answer({"column": "fall of end[mm] from 550 to 50 of T[degC]"}, history, 1)
         with self.assertRaisesRegex(ValueError, "there is no column 'length'"):
             wall.answer({"column": "fall of length from 550 to 50 of T[degC]"}, history, 1)
+
+    def test_a_property_of_a_card_is_a_number_or_between_two_rows_of_a_table(self):
+        text = "  density                       7100 kg/m3\n  expansion                     of temperature [1/K]\n" \
+               "                                     20 degC  1.05e-05\n                                    200 degC  1.17e-05\n  next  1 K\n"
+        self.assertEqual(wall.property_of(text, "density", float("nan")), 7100)
+        self.assertAlmostEqual(wall.property_of(text, "expansion", 110), 1.11e-5)
+        with self.assertRaisesRegex(ValueError, "'expansion' of the card has no value at 300 degC"):
+            wall.property_of(text, "expansion", 300)
+        with self.assertRaisesRegex(ValueError, "the card has no number or table 'hardness'"):
+            wall.property_of(text, "hardness", 20)
+
+    def test_pairs_that_errors_cover_are_not_distinguished(self):
+        rows = [{"name": name, "measured": value, "error": error} for name, value, error in (("a", 1, 0.1), ("b", 2, 0.5), ("c", 2.8, 0.5))]
+        self.assertEqual([(low["name"], high["name"]) for low, high in wall.distinguished(rows)], [("a", "b"), ("a", "c")])
 
     def test_each_unit_has_its_own_figures(self):
         values = [{"unit": unit, "measured": 10.0, "error": 1.0, "computed": computed, "computed_error": 0.0}

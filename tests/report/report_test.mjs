@@ -3,7 +3,7 @@
 import { spawn, spawnSync } from "node:child_process";
 import { request } from "node:http";
 import { connect } from "node:net";
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Browser } from "./browser.mjs";
 import { checkInFirefox } from "./firefox_test.mjs";
@@ -170,8 +170,17 @@ check("run --report writes the page and says so", second.text.includes("warmer/r
 const wheels = solidus("run", "--heat-only", resolve("cases/wheel_in_die"), "-o", "shots", "--no-progress", "--set", "cycle.shots.repeat=2");
 check("two shots into a die run", wheels.code === 0, wheels.text.slice(-400));
 
+// What `solidus calibrate` writes next to the run with the values that it found.
+cpSync(join(folder, "ring"), join(folder, "fit/fitted"), { recursive: true });
+writeFileSync(join(folder, "fit/calibrate.json"), JSON.stringify({
+  measured: "logger.csv", confidence: 0.9, residuals_over_noise: 1.02, noise_stated: true,
+  unknowns: [{ name: "film", unit: "W/m2/K", value: 1500, low: 1450, high: 1550 }, { name: "emissivity", unit: "", value: 0.25, low: 0.2, high: 0.3, at_bound: true }],
+  correlation: [[1, -0.95], [-0.95, 1]], not_seen: [], observations: [{ name: "TC1", unit: "K", readings: 3, rms: 0.4, mean: -0.1 }],
+  curves: [{ name: "TC1", unit: "degC", time: [0, 10, 20], measured: [600, 500, 450], computed: [600.5, 499.5, 450.25] }],
+}));
+
 // The command.
-for (const [args, page] of [[["pores"], "pores/report.html"], [["pot"], "pot/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
+for (const [args, page] of [[["pores"], "pores/report.html"], [["pot"], "pot/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["fit/fitted"], "fit/fitted/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
   const made = solidus("report", ...args);
   check(`report ${args.join(" ")} says where the page is`, made.code === 0 && made.text.includes(page), made.text);
 }
@@ -321,6 +330,15 @@ try {
   await ring.run(`(() => { ${bench}.setField('displacement'); })()`);
   await ring.settle();
   check("without a word on the console", ring.messages.length === 0, ring.messages);
+
+  // A run that was fitted to measurements shows them.
+  const fitted = await browser.page(1000, 800);
+  await fitted.go(`file://${join(folder, "fit/fitted/report.html")}`);
+  const shown_fit = await fitted.run("document.querySelector('#measured').textContent");
+  check("a fitted run has a section of what was measured", ["logger.csv", "film", "1450", "at its bound", "film and emissivity (-0.95)", "TC1"].every((t) => shown_fit.includes(t)), shown_fit);
+  check("with curves of both and their difference", (await fitted.run("[...document.querySelectorAll('#measured figcaption span')].map((f) => f.textContent).join()")) === "Temperature, measured and computed °C,Computed less measured K", shown_fit);
+  check("which other runs do not have", (await ring.run("!!document.querySelector('#measured')")) === false);
+  check("without a word on the console of the fit", fitted.messages.length === 0, fitted.messages);
 
   // A casting in its die: gap and distortion of the answers are figures.
   const die = await browser.page(1000, 800);

@@ -352,6 +352,10 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   if (const fs::path ranks = whole.parent_path() / "uncertain.json";
       whole.filename() == "best" && fs::exists(ranks))
     out.add("uncertain_text", checked_summary(ranks));
+  // The run with the values that `solidus calibrate` has found, next to what it has written of the fit.
+  if (const fs::path fit = whole.parent_path() / "calibrate.json";
+      whole.filename() == "fitted" && fs::exists(fit))
+    out.add("calibrated_text", checked_summary(fit));
   add_filling(out, folder / "filling", blocks, own);
   out.add("materials", run.materials);
   // Tables with at most so many rows, and the fields as far as there is room.

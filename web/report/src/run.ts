@@ -44,6 +44,7 @@ interface RunMeta {
   case_text: string;
   summary_text?: string;
   uncertain_text?: string;
+  calibrated_text?: string;
   filling_text?: string;
   /** Block of the bytes of the filling. */
   filling?: number;
@@ -273,6 +274,19 @@ export interface Uncertain {
   }[];
 }
 
+/** calibrate.json of `solidus calibrate`: what was measured, and the values found. */
+export interface Calibrated {
+  measured?: string;
+  confidence?: number;
+  residuals_over_noise?: number;
+  noise_stated?: boolean;
+  unknowns?: { name: string; unit: string; value: number; low: number; high: number; at_bound?: boolean }[];
+  correlation?: number[][];
+  not_seen?: { deviation: number | null; combination: Record<string, number> }[];
+  observations?: { name: string; unit: string; readings: number; rms: number; mean: number }[];
+  curves?: { name: string; unit: string; time: number[]; measured: number[]; computed: number[] }[];
+}
+
 /** What a run says of a body that was cast. */
 export interface CastAnswer {
   riser?: boolean;
@@ -325,6 +339,7 @@ export class Run {
   readonly displacement: Values[][];
   readonly summary: Summary;
   readonly uncertain?: Uncertain;
+  readonly calibrated?: Calibrated;
   private tables = new Map<string, Table>();
 
   constructor(readonly meta: RunMeta) {
@@ -349,6 +364,7 @@ export class Run {
         );
     }
     this.displacement = metas.filter((f) => f.name === "displacement").map(columns);
+    if (meta.calibrated_text) this.calibrated = JSON.parse(meta.calibrated_text) as Calibrated;
     if (meta.uncertain_text) this.uncertain = JSON.parse(meta.uncertain_text) as Uncertain;
     for (const [name, table] of Object.entries(meta.tables)) this.tables.set(name, new Table(table));
   }
