@@ -1,8 +1,25 @@
 // What tests of the workbench share: a server, a page that is worked by clicks alone, and the server's state.
 import { spawn } from "node:child_process";
+import { readdirSync, readFileSync } from "node:fs";
 import { Browser } from "../report/browser.mjs";
 
 export const patience = Number(process.env.SOLIDUS_TEST_PATIENCE ?? 1);  // limits of time are multiplied by it
+
+/** Processor time [s] of a process, of those that it has started, and of those of them that have ended; unlike wall clock time it does not depend on what else the machine does. */
+export function effort(root) {
+  const seconds = new Map(), parent = new Map();
+  for (const pid of readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {
+    try {
+      const fields = readFileSync(`/proc/${pid}/stat`, "utf8").replace(/^.*\) /, "").split(" ").map(Number);
+      parent.set(+pid, fields[1]);
+      seconds.set(+pid, (fields[11] + fields[12] + fields[13] + fields[14]) / 100); // the clock of Linux ticks a hundred times a second
+    } catch {
+      continue; // a process that has ended meanwhile
+    }
+  }
+  const belongs = (pid) => pid === root || (parent.has(pid) && belongs(parent.get(pid)));
+  return [...seconds].reduce((sum, [pid, own]) => sum + (belongs(pid) ? own : 0), 0);
+}
 
 /** `solidus open`, started in a folder. */
 export class Server {
