@@ -111,7 +111,7 @@ def field_maps(spec, section, folder):
             outline = _outline(grid, mask, place, mirror)
             axes.add_collection(LineCollection(outline, colors="black", linewidths=0.7, zorder=5))
         _bare(axes, mirror)
-        axes.set_title(f"{grid.time:g} s")
+        axes.set_title(section.heading(grid.time))
     _frame(panels[0][0], places)
     panels[0][0].set_ylabel("z [mm]" if mirror else "y [mm]")
     bar = figure.colorbar(colours, ax=panels[0].tolist(), pad=0.015, aspect=32, shrink=0.92)

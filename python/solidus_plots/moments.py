@@ -11,8 +11,9 @@ from solidus_plots.vtu import ResultError, read_fields
 class Moments:
     """Each file is read once."""
 
-    def __init__(self, times, files, bodies, probes=None):
+    def __init__(self, times, files, bodies, probes=None, stages=None):
         self._times, self._files, self.bodies, self._grids = times, files, bodies, {}
+        self._stages = stages or {}  # name -> the end of its last repetition [s]
         self._probes = probes or {}  # name -> point [3] m
         self.missing = []  # what was asked for and not written, for the user
 
@@ -29,8 +30,12 @@ class Moments:
         return grids
 
     def at(self, time):
-        """The fields of the moment nearest to `time` ("first", "last"); it must be a written one."""
+        """The fields of the moment nearest to `time` ("first", "last", the end of a stage by its name); it must be a written one."""
         named = {"first": 0, "last": len(self._times) - 1}
+        if isinstance(time, str) and time not in named:
+            if time not in self._stages:
+                raise ResultError(f"plots.toml: '{time}' is no moment and no stage that is over; these are {', '.join(self._stages) or 'none'}")
+            time = self._stages[time]
         index = named[time] if time in named else int(np.argmin(np.abs(self._times - time)))
         if time not in named and abs(self._times[index] - time) > 1e-6 * max(1.0, abs(time)):
             raise ResultError(f"plots.toml: no fields were written at {time} s; there are those of "
@@ -38,6 +43,11 @@ class Moments:
         if index not in self._grids:
             self._grids[index] = read_fields(self._files[index])
         return self._grids[index]
+
+    def heading(self, time):
+        """A moment as the heading of a picture, with the name of the stage that ends there."""
+        ends = [name for name, end in self._stages.items() if abs(end - time) <= 1e-6 * max(1.0, abs(time))]
+        return f"end of '{ends[0]}', {time:g} s" if ends else f"{time:g} s"
 
     def probes(self, patterns):
         """Names and points [point][3] m of the probes that a picture asks for; * is any text."""

@@ -84,7 +84,8 @@ def draw_fields(spec, wishes, results, summary, history, folder, problems):
     times, written = read_collection(results / "fields.pvd")
     fields.declare(summary)
     run = Moments(times, written, list(summary.get("mesh", {}).get("bodies", {})),
-                  read_points(results / "case.toml"))
+                  read_points(results / "case.toml"),
+                  {stage["name"]: stage["end[s]"] for stage in summary.get("answers", {}).get("stages", [])})
     case, sheets = None, []
     if wishes.get("draw", True) and len(times):
         case, sheets = automatic.plan(run, times, summary, history, results, wishes)

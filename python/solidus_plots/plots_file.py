@@ -42,7 +42,7 @@ def _all(values, fits):
 
 
 def _moment(value):
-    return _number(value) or value in ("first", "last")
+    return _number(value) or (_text(value) and value != "")
 
 
 def _text(value):
@@ -57,8 +57,8 @@ def _table(value):
 VALUES = [
     (("file", "title", "quantity", "field", "unit", "colours", "up", "edges", "table", "x", "name"), _text, "a text"),
     (("only", "bodies", "plain", "ghost", "clip_bodies", "probes"), lambda v: _all(v, _text), "a list of texts"),
-    (("times",), lambda v: _all(v, _moment) and v, 'a list of moments [s], "first", "last"'),
-    (("time",), _moment, 'a moment [s], "first" or "last"'),
+    (("times",), lambda v: _all(v, _moment) and v, 'a list of moments [s], "first", "last", names of stages'),
+    (("time",), _moment, 'a moment [s], "first", "last" or the name of a stage'),
     (("component", "columns", "bands"), lambda v: _number(v) and v == int(v) and v >= 0, "a whole number"),
     (("magnification", "above", "below", "shift", "until"), _number, "a number"),
     (("range", "view"), lambda v: _all(v, _number) and len(v) == 2, "two numbers"),

@@ -27,7 +27,7 @@ bool dynamic(const coupling::Phases& phases) {
 }
 
 bool follows_internal_energy(const coupling::Phases& phases, const RecorderOptions& options) {
-  return coupling::has_internal_energy(phases, options.stages);
+  return coupling::has_internal_energy(phases, !options.stages.empty());
 }
 
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options) {
@@ -67,7 +67,7 @@ std::vector<Reading> with_shot(std::vector<Reading> readings, int shot, double s
 std::vector<Reading> global_readings(const coupling::Phases& phases, const RecorderOptions& options) {
   std::vector<Reading> readings = GlobalHistory(global_columns(phases, options)).all();
   if (options.shots) readings = with_shot(std::move(readings), 0, 0);
-  return options.stages ? with_stage(std::move(readings), 0, 0) : readings;
+  return options.stages.empty() ? readings : with_stage(std::move(readings), 0, 0);
 }
 
 // A probe that samples a field of a criterion.
@@ -129,7 +129,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
     // Columns of the history: time, stage and shot, probes, then the sums over the whole case.
     std::vector<CsvColumn> head{csv_column(columns::k_time)};
     const auto add = [&](const quantities::Column& column) { head.push_back(csv_column(column)); };
-    if (options_.stages) add(columns::k_stage), add(columns::k_cycle);
+    if (!options_.stages.empty()) add(columns::k_stage), add(columns::k_cycle);
     if (options_.shots) add(columns::k_shot), add(columns::k_since_pouring);
     head.insert(head.end(), probes_.columns().begin(), probes_.columns().end());
     for (const CsvColumn& c : globals_.columns()) head.push_back(c);
@@ -154,6 +154,10 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       tables_.shots.emplace(folder.shots(), options_.continue_from
                                                 ? std::optional(options_.continue_from->state.time)
                                                 : std::nullopt);
+    if (!options_.stages.empty())
+      tables_.stages.emplace(folder.stages(), options_.continue_from
+                                                  ? std::optional(options_.continue_from->state.time)
+                                                  : std::nullopt);
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
 }
@@ -161,7 +165,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
 std::vector<Reading> Recorder::readings() const {
   std::vector<Reading> readings = globals_.all();
   if (options_.shots) readings = with_shot(std::move(readings), last_.shot, last_.since_pouring);
-  return options_.stages ? with_stage(std::move(readings), last_.stage, last_.cycle) : readings;
+  return options_.stages.empty() ? readings : with_stage(std::move(readings), last_.stage, last_.cycle);
 }
 
 double Recorder::heat_of_bodies(const coupling::State& state) const {
@@ -173,7 +177,7 @@ double Recorder::heat_of_bodies(const coupling::State& state) const {
 StepTable Recorder::step_table() const {
   return {.dynamics = dynamic(phases_),
           .stability = phases_.audits_stability(),
-          .stages = options_.stages,
+          .stages = !options_.stages.empty(),
           .heat = phases_.heat != nullptr};
 }
 
@@ -235,6 +239,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   add_pools(state);
   // Fields are written where the step asks for them, after everything else is up to date.
   if (record.output) write_fields(state);
+  if (std::ranges::binary_search(options_.stage_ends, record.time)) add_stage(record, state);
   if (record.temperature_error > last_.largest_error[0])
     last_.largest_error = {record.temperature_error, record.time};
   if (progress_) progress_->step(record);
@@ -258,6 +263,13 @@ void Recorder::shot(const coupling::ShotRecord& record, const coupling::State& s
     tables_.shots->add(record, solid);
     if (progress_) progress_->shot(shot_text(tables_.shots->rows().back()));
   });
+}
+
+void Recorder::add_stage(const coupling::StepRecord& record, const coupling::State& state) {
+  fields_.update_criteria(state);
+  const StageRow row = stage_row(mesh_, phases_, record, state, options_.castings, fields_.bodies());
+  if (!criteria_probed_) fields_.release_criteria();
+  on_first_process([&] { tables_.stages->add(row); });
 }
 
 void Recorder::measure_internal_energy(coupling::StepEffort& effort, const coupling::State& state) const {
@@ -334,6 +346,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
     if (phases_.criteria != nullptr) s.criteria = criteria::findings_of(*phases_.criteria, state.criteria);
     add_errors(mesh_, phases_, state, fields_.bodies(), last_.step, *s.answers, s.criteria);
     if (tables_.shots) s.answers->shots = tables_.shots->rows();
+    if (tables_.stages) s.answers->stages = {options_.stages, tables_.stages->rows()};
     if (options_.fixed_steps && last_.largest_error[0] > 0) s.answers->step_error = last_.largest_error;
     if (!criteria_probed_) fields_.release_criteria();
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
@@ -349,7 +362,7 @@ std::vector<double> Recorder::history_row(const coupling::State& state) {
   last_.shot = state.shot;
   last_.since_pouring = state.time - state.poured;
   std::vector<double> row = {state.time};
-  if (options_.stages)
+  if (!options_.stages.empty())
     row.insert(row.end(), {static_cast<double>(last_.stage), static_cast<double>(last_.cycle)});
   if (options_.shots) row.insert(row.end(), {static_cast<double>(last_.shot), last_.since_pouring});
   for (const double v : probes_.values(fields_.bodies(), readings())) row.push_back(v);

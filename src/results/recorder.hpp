@@ -12,6 +12,7 @@
 #include "results/answers/answer_errors.hpp"
 #include "results/answers/answers.hpp"
 #include "results/answers/shot_table.hpp"
+#include "results/answers/stage_table.hpp"
 #include "results/checkpoint/checkpoint.hpp"
 #include "results/fields/state_fields.hpp"
 #include "results/formats/field_output.hpp"
@@ -35,7 +36,8 @@ struct RecorderOptions {
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
   bool melting = true;                     ///< a material can melt
-  bool stages = false;                     ///< the run has stages
+  std::vector<std::string> stages = {};    ///< names of the stages of the case; empty: it has none
+  std::vector<double> stage_ends = {};     ///< of all its stages, in their order [s]
   bool shots = false;                      ///< some of them are shots
   std::vector<std::string> sources = {};   ///< that travel, whose power is shown
   std::vector<std::string> channels = {};  ///< that cool, whose fluid is shown
@@ -80,6 +82,7 @@ class Recorder : public coupling::Observer {
   void measure_internal_energy(coupling::StepEffort& effort, const coupling::State& state) const;
   void show_castings(coupling::StepEffort& effort, const coupling::State& state) const;
   void add_pools(const coupling::State& state);
+  void add_stage(const coupling::StepRecord& record, const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);
   void note_unsettled_augmentations(const coupling::StepRecord& record);
   /// Prints and writes the conclusion at the end of a run, or at its stop.
@@ -94,6 +97,7 @@ class Recorder : public coupling::Observer {
     std::optional<PoolTable> pools;       ///< where pools are followed
     std::optional<FeedingTable> feeding;  ///< where feeding is followed
     std::optional<ShotTable> shots;       ///< in a run with shots
+    std::optional<StageTable> stages;     ///< in a run with stages
   };
   /// What the last row tells.
   struct Last {

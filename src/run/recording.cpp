@@ -51,7 +51,9 @@ results::RecorderOptions recorder_options(const setup::Case& c, const RunOptions
     if (asked_for) r.formats.push_back(format);
   for (const cases::ChannelSpec& channel : spec.channels) r.channels.push_back(channel.name);
   for (const cases::SourceSpec& source : spec.sources) r.sources.push_back(source.name);
-  r.stages = !spec.stages.empty();
+  for (const cases::StageSpec& stage : spec.stages) r.stages.push_back(stage.name);
+  if (!r.stages.empty())
+    for (const coupling::Stage& stage : setup::time_options(spec).stages) r.stage_ends.push_back(stage.end);
   r.shots = has_shots(a);
   r.steady = spec.time.steady;
   r.fixed_steps = !spec.time.adaptive && !spec.time.steady;

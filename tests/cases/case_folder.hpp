@@ -49,7 +49,7 @@ class CaseFolder {
     }
     return {};
   }
-  /// Runs until so many steps are taken, then goes on: the history must be, byte for byte, that of a run that
+  /// Runs until so many steps are taken, then goes on: the tables must be, byte for byte, those of a run that
   /// never stopped (in NAME_whole).
   void expect_exact_restart(const std::string& name, const std::string& text, int stop_after,
                             const std::vector<std::string>& overrides = {}) const {
@@ -66,8 +66,9 @@ class CaseFolder {
     ASSERT_TRUE(go(name + "_whole", false, k_never));
     ASSERT_FALSE(go(name + "_parts", false, stop_after));
     ASSERT_TRUE(go(name + "_parts", true, k_never));
-    EXPECT_EQ(read_text(root() / (name + "_whole") / "history.csv"),
-              read_text(root() / (name + "_parts") / "history.csv"));
+    for (const char* table : {"history.csv", "stages.csv"})  // the second of a case with stages
+      EXPECT_EQ(read_text(root() / (name + "_whole") / table), read_text(root() / (name + "_parts") / table))
+          << table;
   }
 
  private:

@@ -73,7 +73,6 @@ SCENES = {
 # Commands that no test of a page types, and what runs them instead.
 ELSEWHERE = {
     "solidus compare-shape MEASURED SHAPE": "tests/program/pattern_shape_test.py",
-    "python3 cases/heat_treatment/after_stages.py results/disc": "tests/program/heat_treatment_test.py",
     "./dev test": "the suite itself",
     "./dev docs --site": "tests/python/site_test.py",
     "./dev release": "the same build, packed by tests/program/archive_test.py",

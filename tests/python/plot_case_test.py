@@ -8,6 +8,7 @@ import unittest.mock
 
 from field_files import write
 from solidus_plots import curves, plot_case
+from solidus_plots.moments import Moments
 from solidus_plots.plot_case import draw
 
 
@@ -48,6 +49,15 @@ class Folders(unittest.TestCase):
         self.assertNotIn("section.png", names)
         for text in ("no fields were written at 20 s", "does not meet the bodies", "T_b[degC]"):
             self.assertTrue(any(text in problem for problem in problems), (text, problems))
+
+    def test_a_moment_is_asked_for_by_the_name_of_the_stage_that_ends_there(self):
+        summary = {"variant": "default", "mesh": {"bodies": {"part": 2}}, "answers": {"stages": [{"name": "quench", "end[s]": 12.5}]}}
+        (self.folder / "summary.json").write_text(json.dumps(summary))
+        names, problems = self.drawn('[[maps]]\nfile = "map"\nfield = "temperature"\ntimes = ["quench", "ageing"]\n')
+        self.assertIn("map.png", names)
+        self.assertEqual(problems, ["plots.toml: 'ageing' is no moment and no stage that is over; these are quench"])
+        run = Moments([12.5], [None], [], stages={"quench": 12.5})
+        self.assertEqual([run.heading(12.5), run.heading(3.0)], ["end of 'quench', 12.5 s", "3 s"])
 
     def test_without_semaphores_pictures_are_drawn_one_after_the_other(self):
         with unittest.mock.patch.object(plot_case, "ProcessPoolExecutor", side_effect=PermissionError(13, "Permission denied")):

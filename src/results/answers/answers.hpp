@@ -14,6 +14,7 @@
 #include "coupling/state.hpp"
 #include "criteria/criterion.hpp"
 #include "results/answers/shot_table.hpp"
+#include "results/answers/stage_table.hpp"
 #include "results/fields/field.hpp"
 #include "results/output/display_units.hpp"
 #include "results/output/json_document.hpp"
@@ -99,6 +100,7 @@ struct Answers {
   std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]
   std::string stressed_body;
   std::vector<ShotRow> shots;  ///< those that are over; known to the process that writes
+  StageAnswers stages;         ///< known to the same process
   /// Of a run with fixed steps: the largest error of temperature that a step is estimated to have made [K],
   /// and the time of its end [s].
   std::optional<std::array<double, 2>> step_error;

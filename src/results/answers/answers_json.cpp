@@ -109,6 +109,7 @@ Json json(const Answers& a) {
   // At last what says how far the answers are right: shots, the error of fixed steps, and the
   // balance of energy.
   if (!a.shots.empty()) json.add("shots", results::json(a.shots));
+  if (!a.stages.rows.empty()) json.add("stages", results::json(a.stages));
   if (a.step_error)
     json.add("largest_step_error",
              Json().add("temperature[K]", (*a.step_error)[0]).add("time[s]", (*a.step_error)[1]));

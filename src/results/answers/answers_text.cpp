@@ -392,11 +392,11 @@ std::string feeding_lines(const std::vector<criteria::CriterionResult>& found, c
 
 std::string text(const Answers& a, const std::vector<criteria::CriterionResult>& criteria,
                  const DisplayUnits& units) {
-  // The answers as the terminal shows them, line by line in a fixed order: shots, castings, risers and
-  // soundness, pools, criteria, pores, gaps, distortion, stress, and what says how far they are right. Lines
-  // whose answer does not exist are left out.
+  // The answers as the terminal shows them, line by line in a fixed order: shots, stages, castings, risers
+  // and soundness, pools, criteria, pores, gaps, distortion, stress, and what says how far they are right.
+  // Lines whose answer does not exist are left out.
   const Formatter format(units);
-  std::string text = shot_lines(a.shots, format);
+  std::string text = shot_lines(a.shots, format) + stage_lines(a.stages, units);
   for (const CastAnswer& cast : a.castings)
     text += line(fmt::format("{} '{}'", kind_of(cast.cast), cast.cast.name),
                  cast_text(cast, a.time - a.poured, format));

@@ -21,8 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view k_marker = "# Written by Solidus: the case as it was run, all defaults filled in.";
-constexpr std::array<const char*, 7> k_tables = {
-    "history.csv", "steps.csv", "pools.csv", "feeding.csv", "shots.csv", "summary.json", "sensitivities.csv"};
+constexpr std::array<const char*, 8> k_tables = {"history.csv",  "steps.csv",        "pools.csv",
+                                                 "feeding.csv",  "shots.csv",        "stages.csv",
+                                                 "summary.json", "sensitivities.csv"};
 
 /// All files that a run may write directly in its folder, but for case.toml and the tables of profiles.
 std::vector<std::string> own_files() {

@@ -25,6 +25,7 @@ bool is_finished(const std::filesystem::path& folder);
 /// checkpoint/   to go on from
 /// pools.csv     pools of melt, where something can freeze
 /// feeding.csv   where the metal that shrinks took its volume from, with heat alone
+/// shots.csv     every shot               stages.csv  what each stage has left in the bodies
 /// sensitivities.csv  derivatives of probes, of a run with --sensitivities
 /// report.html   the page that `solidus report` wrote; a new run takes it away
 /// ```
@@ -48,6 +49,7 @@ class RunFolder {
   std::filesystem::path pools() const { return root_ / "pools.csv"; }
   std::filesystem::path feeding() const { return root_ / "feeding.csv"; }
   std::filesystem::path shots() const { return root_ / "shots.csv"; }
+  std::filesystem::path stages() const { return root_ / "stages.csv"; }
   std::filesystem::path sensitivities() const { return root_ / "sensitivities.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
   std::filesystem::path fields() const { return root_ / "fields"; }

@@ -360,7 +360,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
   out.add("materials", run.materials);
   // Tables with at most so many rows, and the fields as far as there is room.
   Json tables;
-  for (const char* name : {"history", "steps", "pools", "shots"}) {
+  for (const char* name : {"history", "steps", "pools", "shots", "stages"}) {
     const std::string file = std::string(name) + ".csv";
     if (!there(file.c_str())) continue;
     const ReportTable table = read_table(folder / file, k_most_rows);

@@ -4,6 +4,7 @@
 #include "coupling/columns.hpp"
 #include "criteria/columns.hpp"
 #include "results/answers/answer_rows.hpp"
+#include "results/answers/stage_table.hpp"
 #include "results/output/quantity_json.hpp"
 
 namespace solidus::results {
@@ -82,7 +83,8 @@ const std::vector<DeclaredTable>& all_tables() {
        "revolution.",
        columns_of(criteria::feeding_columns())},
       {"shots", "A row for each shot that is over, in runs with shots.",
-       columns_of(coupling::shot_columns())}};
+       columns_of(coupling::shot_columns())},
+      {"stages", "A row for each stage that is over, in runs with stages.", columns_of(stage_columns())}};
   return tables;
 }
 

@@ -9,7 +9,7 @@ export interface Section {
   /** Of the element, and of links to it. */
   id: string;
   title: string;
-  /** The order of sections; built-in ones have multiples of ten. */
+  /** The order of sections; built-in ones have multiples of five. */
   place: number;
   /** What it shows; nothing, or null alone, where the runs have nothing for it: then there is no section. */
   build: (page: Page, bench: Workbench) => Content[];
