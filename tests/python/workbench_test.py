@@ -201,6 +201,17 @@ class Chosen(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
+    def test_a_riser_is_judged_by_when_it_froze_and_by_the_errors(self):
+        def froze(seconds, error, **role):
+            return {"riser": False, "gating": False, **role, "last_melt_froze": {"value[s]": seconds, "error[s]": error}}
+
+        castings = {"part": froze(100.0, 5.0), "late": froze(130.0, 6.0, riser=True), "near": froze(104.0, 1.0, riser=True),
+                    "early": froze(80.0, 1.0, riser=True), "runner": froze(20.0, 1.0, gating=True)}
+        self.assertEqual([(v["good"], v["text"].split(":")[0].rstrip(".")) for v in runs.verdicts(castings)],
+                         [(True, "late outlived the part by 30 ± 6 s"), (None, "near froze 4 ± 5 s after the part"), (False, "early froze 20 ± 5 s before the part")])
+        self.assertEqual(runs.verdicts({"part": {"riser": False, "gating": False}, "late": castings["late"]}), [])
+        self.assertEqual(runs.verdicts({"part": castings["part"]}), [])
+
     def test_a_run_is_named_only_by_its_number(self):
         with tempfile.TemporaryDirectory() as folder:
             os.mkdir(f"{folder}/run_3")

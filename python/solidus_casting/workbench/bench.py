@@ -231,7 +231,7 @@ class Bench:
             for name, content in chosen.files(case.choices).items():
                 case.own(name).write_text(content, encoding="utf-8")
         if only_show:
-            self._begin("preview", "looks what it would make", lambda job: self._look_ahead(job, words))
+            self._begin("preview", "plans the mould", lambda job: self._look_ahead(job, words))
         else:
             self._begin("new", "makes the case", lambda job: self._make(job, words))
 
@@ -357,7 +357,7 @@ class Bench:
 
     def _look_ahead(self, job: Job, words: list[str]) -> None:
         choices = self._open_case().choices
-        child = self._call(job, ["new", "--preview", *words], "looks what it would make")
+        child = self._call(job, ["new", "--preview", *words], "plans the mould")
         with self._changed:
             self._preview = preview.read(child.output, choices)
 
@@ -412,7 +412,7 @@ class Bench:
                 job.watch = line[line.index(mark):].strip()
 
         words = ["run", f"--output={self._results / name}", "--no-progress", "--watch", "--report", *options, str(case.folder)]
-        self._call(job, words, f"{name} goes on", heard)
+        self._call(job, words, f"computes {name}", heard)
 
     def _compare(self, job: Job, folders: list[Path]) -> None:
         case = self._open_case()

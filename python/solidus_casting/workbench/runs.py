@@ -51,7 +51,7 @@ def printed(folder: Path) -> str | None:
 def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
     """As :func:`one_run`, read again only when the files have changed, which `stamps` tell."""
     del stamps
-    run: dict[str, Any] = {"name": folder.name, "outcome": "not ended", "answers": [], "warnings": [],
+    run: dict[str, Any] = {"name": folder.name, "outcome": "not ended", "answers": [], "verdicts": [], "warnings": [],
                            "report": (folder / "report.html").exists(), "printed": printed(folder)}
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
@@ -60,6 +60,7 @@ def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
         errors, found_at = bands(summary), places(summary)
         run["answers"] = [{**named(name), "value": value, "error": errors.get(name), "at": found_at.get(name)}
                           for name, value in answers(summary).items()]
+        run["verdicts"] = verdicts(summary.get("answers", {}).get("castings", {}))
         run["warnings"] = [findings.finding("warning", str(warning), "", {}) for warning in summary.get("warnings", [])]
         run["outcome"] = str(summary.get("outcome", "not ended"))
         run["time"], run["steps"] = summary.get("end_time[s]"), summary.get("steps")
@@ -67,9 +68,30 @@ def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
     except FileNotFoundError:
         pass
     except (ValueError, TypeError, AttributeError, KeyError) as error:
-        return {"name": folder.name, "outcome": "damaged", "answers": [], "warnings": [findings.finding("error", f"its summary.json cannot be read: {error!r}", "", {})],
+        return {"name": folder.name, "outcome": "damaged", "answers": [], "verdicts": [], "warnings": [findings.finding("error", f"its summary.json cannot be read: {error!r}", "", {})],
                 "report": run["report"], "printed": run["printed"]}
     return run
+
+
+def verdicts(castings: dict[str, Any]) -> list[dict[str, Any]]:
+    """Whether each riser outlived the part, as the end of a run says it; ``good`` is nothing where the errors do not let it be told."""
+    frozen = {name: casting["last_melt_froze"] for name, casting in castings.items() if "last_melt_froze" in casting}
+    parts = [name for name, casting in castings.items() if not casting.get("riser") and not casting.get("gating")]
+    if not parts or any(name not in frozen for name in parts):
+        return []
+    part = max(frozen[name]["value[s]"] for name in parts)
+    of_parts = max(frozen[name].get("error[s]", 0.0) for name in parts)
+    found: list[dict[str, Any]] = []
+    for name in (name for name in frozen if castings[name].get("riser")):
+        later, error = frozen[name]["value[s]"] - part, max(of_parts, frozen[name].get("error[s]", 0.0))
+        size = f"{abs(later):.4g}" + (f" ± {error:.2g}" if error > 0 else "") + " s"
+        if abs(later) < error:
+            found.append({"text": f"{name} froze {size} {'after' if later > 0 else 'before'} the part: too close to tell whether it fed to the end", "good": None})
+        elif later > 0:
+            found.append({"text": f"{name} outlived the part by {size}.", "good": True})
+        else:
+            found.append({"text": f"{name} froze {size} before the part: it could not feed to the end.", "good": False})
+    return found
 
 
 def named(header: str) -> dict[str, str]:

@@ -176,7 +176,8 @@ export class Workbench {
       high = Math.max(-low, high);
       low = -high;
     }
-    if (high === low) high = low + Math.max(1e-12, Math.abs(low) * 1e-6);
+    // A field that is the same everywhere but for rounding has one colour.
+    if (high - low <= 1e-6 * Math.max(Math.abs(low), Math.abs(high))) high = low + Math.max(1e-12, Math.abs(low) * 1e-3);
     this.choice.low = low;
     this.choice.high = high;
   }

@@ -9,6 +9,11 @@ type Children = (Node | string | null | false)[];
 interface Curves { columns: { name: string; unit: string }[]; rows: (number | null)[][] }
 
 const short = (v: number | null | undefined) => (v === null || v === undefined || !Number.isFinite(v) ? "–" : String(+v.toPrecision(4)));
+/** A unit as people write it. */
+const UNITS: Record<string, string> = { "1": "", um: "µm", degC: "°C", K2: "K²", m2: "m²", mm2: "mm²", cm3: "cm³", m3: "m³", "K0.5 s0.5/mm": "√(K s)/mm" };
+const unitText = (unit: string) => UNITS[unit] ?? unit;
+/** A value with its error, which has two digits, and its unit. */
+const withError = (a: Answer) => [`${short(a.value)}${a.error ? ` ± ${+a.error.toPrecision(2)}` : ""}`, unitText(a.unit)].filter(Boolean).join(" ");
 const seconds = (s: number) => (s < 90 ? `${Math.round(s)} s` : `${Math.floor(s / 60)} min ${Math.round(s % 60)} s`);
 
 export class Judge {
@@ -54,13 +59,14 @@ export class Judge {
     // An answer that was found at a place leads to it.
     const show = (a: Answer) => this.desk.show({ severity: "note", message: a.name, places: [a.at!], bodies: [] });
     const name = (a: Answer) => (a.at ? h("button", { class: "link", title: "Show where", click: () => show(a) }, a.name) : a.name);
-    const line = (a: Answer) => h("tr", {}, h("th", { scope: "row" }, name(a)), h("td", {}, `${short(a.value)}${a.unit === "1" ? "" : ` ${a.unit}`}${a.error ? ` ± ${short(a.error)}` : ""}`));
+    const line = (a: Answer) => h("tr", {}, h("th", { scope: "row" }, name(a)), h("td", {}, withError(a)));
     return h("article", { class: "run", id: run.name },
       h("header", {}, h("b", {}, run.name.replace("_", " ")), h("span", { class: `badge ${goesOn ? "" : good ? "good" : "bad"}` }, goesOn ? "running" : run.outcome.split(/[:;,]/)[0]),
         run.report ? h("button", { id: `report-${run.name}`, click: () => this.openReport(run.name) }, "Report") : null,
         good ? h("button", { id: `print-${run.name}`, disabled: busy, title: "Four pages for the customer; logo and words are those of customer.toml next to the case", click: () => void this.desk.ask("print", { run: run.name }) }, run.printed ? "Print again" : "PDF") : null,
         run.printed ? h("a", { id: `printed-${run.name}`, href: `run/${run.name}/printed`, target: "_blank", rel: "noopener" }, run.printed) : null,
         h("button", { class: "quiet", id: `curves-${run.name}`, click: () => void this.curves(run.name) }, "Curves")),
+      ...run.verdicts.map((v) => h("p", { class: v.good === null ? "hint" : v.good ? "good" : "bad" }, v.text)),
       run.answers.length ? h("table", { class: "plain answers" }, ...run.answers.map(line)) : null,
       run.warnings.length ? h("details", {}, h("summary", {}, `${run.warnings.length} to look at`), h("ul", { class: "findings" }, ...run.warnings.map((w, n) => this.finding(w, `${run.name}-look-${n}`)))) : null);
   }
@@ -112,6 +118,6 @@ export class Judge {
     if (!c) return [h("p", { class: "hint" }, "Choose two runs on the left and compare them.")];
     return [h("table", { class: "plain wide" }, h("caption", {}, `${c.first.replace("_", " ")} and ${c.second.replace("_", " ")}`),
       h("tr", {}, ...["Answer", c.first.replace("_", " "), c.second.replace("_", " "), "Difference"].map((t) => h("th", { scope: "col" }, t))),
-      ...c.answers.map((a) => h("tr", {}, h("th", { scope: "row" }, `${a.name}${a.unit === "1" ? "" : ` [${a.unit}]`}`), h("td", {}, short(a.first)), h("td", {}, short(a.second)), h("td", {}, short(a.difference)))))];
+      ...c.answers.map((a) => h("tr", {}, h("th", { scope: "row" }, `${a.name}${unitText(a.unit) ? ` [${unitText(a.unit)}]` : ""}`), h("td", {}, short(a.first)), h("td", {}, short(a.second)), h("td", {}, short(a.difference)))))];
   }
 }

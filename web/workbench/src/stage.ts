@@ -307,10 +307,20 @@ export class Stage {
       if (c.gate) marks.push({ at: c.gate, label: "gate", kind: "name" });
     }
     if (this.desk.state && this.which === "case") marks.push(...placedInCase(this.desk.state).map((mark) => ({ ...mark, kind: "name" })));
+    // A name that would lie on another one moves down until it does not, with a line to its place.
+    const taken: [number, number, number][] = [];
+    const below = (x: number, y: number, label: string): number => {
+      const wide = 7.5 * label.length;
+      let down = 0;
+      while (label && taken.some(([x0, x1, at]) => x < x1 && x + wide > x0 && Math.abs(y + down - at) < 14)) down += 14;
+      if (label) taken.push([x, x + wide, y + down]);
+      return down;
+    };
     this.over.replaceChildren(...marks.map((m) => {
-      const [x, y] = this.picture.project(m.at);
+      const [x, y] = this.picture.project(m.at), down = below(x, y, m.label);
       return svg("g", { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`, class: `mark ${m.kind}` },
-        m.kind === "name" ? null : svg("circle", { r: 5 }), m.kind === "find" ? svg("circle", { r: 12, class: "ring" }) : null, svg("text", { x: 9, y: -6 }, m.label));
+        m.kind === "name" ? null : svg("circle", { r: 5 }), m.kind === "find" ? svg("circle", { r: 12, class: "ring" }) : null,
+        down ? svg("line", { x1: 0, y1: 0, x2: 8, y2: down - 8 }) : null, svg("text", { x: 9, y: down - 6 }, m.label));
     }));
     const inverse = this.picture.camera.turn.clone().invert();
     const axes = (["x", "y", "z"] as const).map((name, i) => ({ name, i, v: new Vector3(+(i === 0), +(i === 1), +(i === 2)).applyQuaternion(inverse) })).sort((p, q) => p.v.z - q.v.z);

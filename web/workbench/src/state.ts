@@ -21,7 +21,7 @@ export interface Choices {
 export interface Preview { low: Place; high: Place; walls: number[] | null; shell: number; size: number; smallest: number; mould_size: number; risers: Riser[] }
 export interface Finding { severity: "error" | "warning" | "note"; message: string; places: Place[]; bodies: string[]; line?: number; section?: string }
 export interface Answer { name: string; unit: string; value: number; error: number | null; at: Place | null }
-export interface RunState { name: string; outcome: string; answers: Answer[]; warnings: Finding[]; report: boolean; printed: string | null; time?: number; steps?: number }
+export interface RunState { name: string; outcome: string; answers: Answer[]; verdicts: { text: string; good: boolean | null }[]; warnings: Finding[]; report: boolean; printed: string | null; time?: number; steps?: number }
 export interface Progress { time?: number; step?: number; solid?: number | null; hottest?: number | null; done?: number | null }
 export interface JobState { what: string; label: string; seconds: number; lines: string[]; stopping: boolean; run: string | null; watch: string | null; progress: Progress }
 export interface Difference { name: string; unit: string; first: number | null; second: number | null; difference: number | null }
