@@ -207,10 +207,12 @@ class Runs(unittest.TestCase):
 
         castings = {"part": froze(100.0, 5.0), "late": froze(130.0, 6.0, riser=True), "near": froze(104.0, 1.0, riser=True),
                     "early": froze(80.0, 1.0, riser=True), "runner": froze(20.0, 1.0, gating=True)}
-        self.assertEqual([(v["good"], v["text"].split(":")[0].rstrip(".")) for v in runs.verdicts(castings)],
+        self.assertEqual([(v["good"], v["text"].split(":")[0].rstrip(".")) for v in runs.verdicts({"castings": castings})],
                          [(True, "late outlived the part by 30 ± 6 s"), (None, "near froze 4 ± 5 s after the part"), (False, "early froze 20 ± 5 s before the part")])
-        self.assertEqual(runs.verdicts({"part": {"riser": False, "gating": False}, "late": castings["late"]}), [])
-        self.assertEqual(runs.verdicts({"part": castings["part"]}), [])
+        self.assertEqual(runs.verdicts({"castings": {"part": {"riser": False, "gating": False}, "late": castings["late"]}}), [])
+        self.assertEqual(runs.verdicts({"castings": {"part": castings["part"]}, "pools_cut_off": {"number": 0}}), [])
+        self.assertEqual([v["text"] for v in runs.verdicts({"pools_cut_off": {"number": 2, "largest[m3]": 3.21e-6}})],
+                         ["2 pools of melt cut off from what feeds the part; the largest had 3.21 cm³."])
 
     def test_a_run_is_named_only_by_its_number(self):
         with tempfile.TemporaryDirectory() as folder:

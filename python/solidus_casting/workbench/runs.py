@@ -60,7 +60,7 @@ def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
         errors, found_at = bands(summary), places(summary)
         run["answers"] = [{**named(name), "value": value, "error": errors.get(name), "at": found_at.get(name)}
                           for name, value in answers(summary).items()]
-        run["verdicts"] = verdicts(summary.get("answers", {}).get("castings", {}))
+        run["verdicts"] = verdicts(summary.get("answers", {}))
         run["warnings"] = [findings.finding("warning", str(warning), "", {}) for warning in summary.get("warnings", [])]
         run["outcome"] = str(summary.get("outcome", "not ended"))
         run["time"], run["steps"] = summary.get("end_time[s]"), summary.get("steps")
@@ -73,8 +73,17 @@ def _read(folder: Path, stamps: tuple[int, ...]) -> dict[str, Any]:
     return run
 
 
-def verdicts(castings: dict[str, Any]) -> list[dict[str, Any]]:
-    """Whether each riser outlived the part, as the end of a run says it; ``good`` is nothing where the errors do not let it be told."""
+def verdicts(answers: dict[str, Any]) -> list[dict[str, Any]]:
+    """Whether each riser outlived the part, as the end of a run says it, and whether melt was cut off from what feeds it; ``good`` is nothing
+    where the errors or the size do not let it be told."""
+    cut_off = answers.get("pools_cut_off", {})
+    number = cut_off.get("number", 0)
+    pools = [] if not number else [{"good": None, "text": f"{number} pool{'s' if number > 1 else ''} of melt cut off from what feeds the part; "
+                                                          f"the largest had {1e6 * cut_off['largest[m3]']:.3g} cm³."}]
+    return _of_risers(answers.get("castings", {})) + pools
+
+
+def _of_risers(castings: dict[str, Any]) -> list[dict[str, Any]]:
     frozen = {name: casting["last_melt_froze"] for name, casting in castings.items() if "last_melt_froze" in casting}
     parts = [name for name, casting in castings.items() if not casting.get("riser") and not casting.get("gating")]
     if not parts or any(name not in frozen for name in parts):
