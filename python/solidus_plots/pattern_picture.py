@@ -43,6 +43,8 @@ def draw_on_skin(points, triangles, values, title, label, file, symmetric=False,
         image[view.edges(2.0)] = (0.12, 0.12, 0.12, 1)
         panel.imshow(image, extent=1e3 * np.array(frame).T.ravel(), interpolation="antialiased")
         for text, place in marks:
+            if not view.sees(place):
+                continue
             x, y = 1e3 * camera.project(np.asarray(place)[None])[0, :2]
             panel.annotate(text, (x, y), ha="center", va="center", fontsize=7,
                            bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "black", "linewidth": 0.6})

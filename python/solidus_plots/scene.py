@@ -13,6 +13,7 @@ CREASE = np.cos(np.radians(38.0))  # neighbours that turn by more make an edge
 LIGHTS = (((-0.35, 0.65, 0.68), 0.48), ((0.75, -0.05, 0.65), 0.14))
 AMBIENT = 0.56
 HIDDEN = 4.0  # an edge is hidden by what lies so much nearer [pixels]; steep surfaces need some
+NEAR = 0.01  # of the picture's longer side: so far behind what is seen a place still counts as seen
 
 
 class Camera:
@@ -137,9 +138,18 @@ class View:
         self._surface, self._camera = surface, camera
         (low, high), place = frame, camera.project(surface.points)
         self._scale = shape[1] / (high[0] - low[0])
-        pixels = (place - [low[0], high[1], 0.0]) * [self._scale, -self._scale, self._scale]
+        self._origin = np.array([low[0], high[1], 0.0])
+        pixels = (place - self._origin) * [self._scale, -self._scale, self._scale]
         self.picture = rasterise(pixels, surface.triangles, shape, surface.levels)
         self._pixels = pixels
+
+    def sees(self, place):
+        """Whether a place on the surface lies within the frame with nothing before it."""
+        column, row, depth = (self._camera.project(np.asarray(place)) - self._origin) * [self._scale, -self._scale, self._scale]
+        shape = self.picture.depth.shape
+        if not (0 <= row < shape[0] and 0 <= column < shape[1]):
+            return False
+        return bool(depth > self.picture.depth[int(row), int(column)] - NEAR * max(shape))
 
     def values(self):
         """Of the field, in the pixels seen."""

@@ -155,10 +155,12 @@ void add_layers(const std::vector<cases::MeshLayersSpec>& sections, const std::s
           0.35;  // deep layers are thinner at corners and between bodies
       if (report.mean < k_least_share_of_depth * report.whole)
         logging::warn(
-            "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have "
-            "none",
-            body, surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
-            report.n_bare + report.n_columns);
+            "the layers of thin elements in '{}' at '{}' have room for {:.2g} of {:.2g} mm in the mean{}: "
+            "the heat that it takes up is less accurate there",
+            body, surface, 1e3 * report.mean, 1e3 * report.whole,
+            report.n_bare > 0 ? fmt::format(", and for none at {} of {} nodes", report.n_bare,
+                                            report.n_bare + report.n_columns)
+                              : std::string());
     }
   }
 }

@@ -82,6 +82,13 @@ class Scenes(unittest.TestCase):
             self.assertLess(np.abs(camera.right - np.eye(3)[right]).max(), 1e-15)
             self.assertLess(np.abs(camera.up - np.eye(3)["xyz".index(up)]).max(), 1e-15)
 
+    def test_places_on_the_near_sides_of_a_cube_are_seen_and_others_not(self):
+        view = self.view(outer(self.grid, everything(self.grid), self.grid.points, self.field), Camera(-90.0, 0.0))  # the eye is at -y
+        self.assertTrue(view.sees([0.4, 0.0, 0.6]))
+        self.assertFalse(view.sees([0.4, 1.0, 0.6]))
+        self.assertFalse(view.sees([0.4, 0.5, 0.6]))
+        self.assertFalse(view.sees([9.0, 0.0, 0.6]), "outside of the frame")
+
     def test_a_cube_cut_open_shows_the_field_inside(self):
         camera = Camera(-90.0, 0.0)  # the eye is at -y
         plane = Plane.axis("y", 0.5).facing(camera.eye)

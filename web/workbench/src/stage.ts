@@ -16,6 +16,8 @@ export class Stage {
   readonly picture = new Picture();
   /** Which skin is shown: that of the part, or of the bodies of the case. */
   which: "part" | "case" = "part";
+  /** What the choices placed when they were seen last. */
+  private placed = "";
   private readonly root = byId("stage");
   private readonly over = svg("svg", { class: "marks", "aria-hidden": "true" });
   private readonly axes = svg("svg", { class: "axes", viewBox: "-40 -40 80 80", "aria-hidden": "true" });
@@ -41,6 +43,10 @@ export class Stage {
     const has = (name: string) => state.skins[name] !== undefined;
     if (this.tags.case !== state.skins.case && has("case")) this.which = "case";
     else if (this.tags.part !== state.skins.part && has("part") && !has("case")) this.which = "part";
+    // What is placed or moved is seen on the part: the bodies of the case are those from before.
+    const placed = state.choices ? JSON.stringify([state.name, state.choices.risers, state.choices.chills, state.choices.gatings, state.choices.probes, state.choices.gate, state.choices.symmetry]) : "";
+    if (this.placed && this.placed !== placed && this.placed.startsWith(`["${state.name}"`) && state.made === false && has("part")) this.which = "part";
+    this.placed = placed;
     if (!has(this.which)) this.which = has("part") ? "part" : "case";
     this.tags = { ...state.skins };
     const tag = has(this.which) ? `${state.name}/${this.which}/${state.skins[this.which]}` : "";
