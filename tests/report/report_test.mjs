@@ -382,9 +382,9 @@ try {
   await shots.settle();
   check("a click goes to the end of a shot", Math.abs((await shots.run(`${bench}.choice.time`)) - answers[0]["end[s]"]) < 1, answers[0]);
   const stages = JSON.parse(readFileSync(join(folder, "shots/summary.json"))).answers.stages;
-  const ended = await shots.run("[...document.querySelectorAll('#stages tbody tr')].map((r) => [...r.children].map((c) => c.textContent))");
-  check("every stage that is over has its row, in each cycle", stages.length > 2 && ended.length === stages.length && ended.every((row, i) => row[0] === stages[i].name && +row[1] === stages[i].cycle), { ended, stages });
-  check("with the temperatures of the summary", ended.every((row, i) => row[3].endsWith("°C") && Math.abs(parseFloat(row[3].split(" to ").at(-1).replace("−", "-")) - (stages[i]["highest_temperature[K]"] - 273.15)) < 0.1), { ended, stages });
+  const stageRows = await shots.run("[...document.querySelectorAll('#stages tbody tr')].map((r) => [...r.children].map((c) => c.textContent))");
+  check("every stage that is over has its row, in each cycle", stages.length > 2 && stageRows.length === stages.length && stageRows.every((row, i) => row[0] === stages[i].name && +row[1] === stages[i].cycle), { stageRows, stages });
+  check("with the temperatures of the summary", stageRows.every((row, i) => row[3].endsWith("°C") && Math.abs(parseFloat(row[3].split(" to ").at(-1).replace("−", "-")) - (stages[i]["highest_temperature[K]"] - 273.15)) < 0.1), { stageRows, stages });
   check("and no word on the console there", shots.messages.length === 0, shots.messages);
 
   // Two runs side by side, on a telephone.
