@@ -29,7 +29,8 @@ DECLARED = json.loads((ROOT / "python/solidus_plots/tables.json").read_text(enco
 COLUMNS = sorted({row["name"] for rows in [*DECLARED["tables"].values(), DECLARED["answers"]] for row in rows if "_" in row["name"]} - set(NAMES))
 # The files that declare them, and those where the same words mean something else.
 DECLARING = ("coupling/columns.hpp", "coupling/step_columns.cpp", "coupling/history_columns.cpp", "coupling/contact_columns.cpp",
-             "coupling/shot_columns.cpp", "heat/columns.hpp", "heat/channel_columns.cpp", "criteria/columns.cpp", "results/answers/answer_rows.hpp")
+             "coupling/shot_columns.cpp", "heat/columns.hpp", "heat/channel_columns.cpp", "criteria/columns.cpp", "results/answers/answer_rows.hpp",
+             "results/answers/stage_table.cpp")
 OTHER_COLUMNS = {
     "cases/time_keys.cpp": "keys of a case", "cases/physics_switch.cpp": "keys of a case", "setup/time_input.cpp": "keys of a case",
     "point/record.cpp": "columns of the tables of a material point", "python/": "members of Python's dictionaries",

@@ -75,7 +75,7 @@ class Wrong(unittest.TestCase):
     def test_values_of_the_wrong_kind_are_told_what_they_must_be(self):
         for line, text in (('view = [30]', "'view' must be two numbers, not [30]"),
                            ('times = "last"', "'times' must be a list of moments"),
-                           ('times = ["end"]', "'times' must be a list of moments"),
+                           ('times = [""]', "'times' must be a list of moments"),
                            ('bodies = "part"', "'bodies' must be a list of texts"),
                            ('range = [0, "a"]', "'range' must be two numbers"),
                            ('smooth = 1', "'smooth' must be true or false"),

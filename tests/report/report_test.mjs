@@ -172,12 +172,10 @@ check("two shots into a die run", wheels.code === 0, wheels.text.slice(-400));
 
 // What `solidus calibrate` writes next to the run with the values that it found.
 cpSync(join(folder, "ring"), join(folder, "fit/fitted"), { recursive: true });
-writeFileSync(join(folder, "fit/calibrate.json"), JSON.stringify({
-  measured: "logger.csv", confidence: 0.9, residuals_over_noise: 1.02, noise_stated: true,
+writeFileSync(join(folder, "fit/calibrate.json"), JSON.stringify({ measured: "logger.csv", confidence: 0.9, residuals_over_noise: 1.02, noise_stated: true, not_seen: [],
   unknowns: [{ name: "film", unit: "W/m2/K", value: 1500, low: 1450, high: 1550 }, { name: "emissivity", unit: "", value: 0.25, low: 0.2, high: 0.3, at_bound: true }],
-  correlation: [[1, -0.95], [-0.95, 1]], not_seen: [], observations: [{ name: "TC1", unit: "K", readings: 3, rms: 0.4, mean: -0.1 }],
-  curves: [{ name: "TC1", unit: "degC", time: [0, 10, 20], measured: [600, 500, 450], computed: [600.5, 499.5, 450.25] }],
-}));
+  correlation: [[1, -0.95], [-0.95, 1]], observations: [{ name: "TC1", unit: "K", readings: 3, rms: 0.4, mean: -0.1 }],
+  curves: [{ name: "TC1", unit: "degC", time: [0, 10, 20], measured: [600, 500, 450], computed: [600.5, 499.5, 450.25] }] }));
 
 // The command.
 for (const [args, page] of [[["pores"], "pores/report.html"], [["pot"], "pot/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["fit/fitted"], "fit/fitted/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
@@ -321,14 +319,12 @@ try {
   const ring = await browser.page(1000, 800, { dark: true });
   await ring.go(`file://${join(folder, "ring/report.html")}`);
   check("the section of a ring is flat", (await ring.run(`${bench}.flat`)) === true);
-  await ring.run("[...document.querySelectorAll('#panel button')].find((b) => b.textContent === 'Full').click()");
-  await ring.settle();
+  await ring.run("[...document.querySelectorAll('#panel button')].find((b) => b.textContent === 'Full').click()"), await ring.settle();
   const reach = await ring.run(`(() => { const d = ${view}.shapes[0].skin, a = d.shape.angle; return [Math.max(...a), d.shape.triangles.length]; })()`);
   check("and turns about its axis at a click", Math.abs(reach[0] - 2 * Math.PI) < 1e-5 && reach[1] > 1000, reach);
   const repeated = readFileSync(join(folder, "ring/steps.csv"), "utf8").includes("shortened: temperature error");
   check("steps that heat shortened are in their table", repeated && /\d shortened: temperature error/.test(await ring.run("document.querySelector('#steps').textContent")));
-  await ring.run(`(() => { ${bench}.setField('displacement'); })()`);
-  await ring.settle();
+  await ring.run(`(() => { ${bench}.setField('displacement'); })()`), await ring.settle();
   check("without a word on the console", ring.messages.length === 0, ring.messages);
 
   // A run that was fitted to measurements shows them.
