@@ -107,7 +107,9 @@ not in the codes. The scripts use knowledge of the answer that a general program
 of `weiner_boley` has an unknown for each face that stays plane, and uses no knowledge of the answer. There is none for `pipe`: the
 balance of the sinking melt would be in the script, and is already the derivation of the answer.
 """
-MISSING = """- OpenFOAM 1912: `laplacianFoam` has neither latent heat nor mechanics; it cannot compute any of the ten.
+MISSING = """- OpenFOAM 1912: no input files yet. `icoReactingMultiphaseInterFoam` and the source `solidificationMeltingSource` have latent heat,
+  `solidDisplacementFoam` has thermal stress, so that the tests of freezing, the cube and perhaps the ring could be computed; it has no
+  plasticity and no contact of bodies.
 - Commercial codes: no answers have been submitted."""
 
 
