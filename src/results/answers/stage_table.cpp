@@ -2,6 +2,7 @@
 #include "results/answers/stage_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +31,7 @@ namespace {
 namespace columns = coupling::columns;
 
 constexpr double k_none = -1;
+constexpr double k_no_temperature = -k_zero_celsius;  // of a run without heat [°C]
 constexpr auto of_all = [](const StageRow&) { return true; };
 
 constexpr auto k_stages = std::to_array<StageColumn>({
@@ -48,14 +50,16 @@ constexpr auto k_stages = std::to_array<StageColumn>({
     {{.name = "lowest_temperature",
       .unit = "degC",
       .label = "Lowest temperature",
-      .doc = "Of what is cast; where nothing of it is there, of all bodies that are",
+      .doc = "Of what is cast; where nothing of it is there, of all bodies that are; -273.15 without heat",
+      .no_value = k_no_temperature,
       .listed = true},
      of_all,
      [](const StageRow& row) { return row.lowest - k_zero_celsius; }},
     {{.name = "highest_temperature",
       .unit = "degC",
       .label = "Highest temperature",
-      .doc = "Of the same bodies",
+      .doc = "Of the same bodies; -273.15 without heat",
+      .no_value = k_no_temperature,
       .listed = true},
      of_all,
      [](const StageRow& row) { return row.highest - k_zero_celsius; }},
@@ -169,12 +173,13 @@ std::string values_text(const StageRow& row, const DisplayUnits& units) {
   const auto shown = [](double value, const char* si, const std::string& unit) {
     return fmt::format("{:.4g} {}", units::to_display(value, si, unit), unit);
   };
-  std::string text = shown(row.highest, "K", units.temperature);
+  std::vector<std::string> parts;
+  if (row.has_temperatures()) parts.push_back(shown(row.highest, "K", units.temperature));
   if (row.stress)
-    text += fmt::format("; von Mises up to {}, mean {}", shown(*row.stress, "Pa", units.stress),
-                        shown(*row.mean_stress, "Pa", units.stress));
-  if (row.distortion) text += "; distortion up to " + shown(*row.distortion, "m", units.length);
-  return text;
+    parts.push_back(fmt::format("von Mises up to {}, mean {}", shown(*row.stress, "Pa", units.stress),
+                                shown(*row.mean_stress, "Pa", units.stress)));
+  if (row.distortion) parts.push_back("distortion up to " + shown(*row.distortion, "m", units.length));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 }  // namespace
@@ -194,12 +199,16 @@ StageRow stage_row(const mesh::Mesh& mesh, const coupling::Phases& phases, const
   for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
     const auto node = as_size(i);
     if (nodes[node] == 0) continue;
-    lowest = std::min(lowest, state.heat.temperature[node]);
-    highest = std::max(highest, state.heat.temperature[node]);
+    if (phases.heat != nullptr) {
+      lowest = std::min(lowest, state.heat.temperature[node]);
+      highest = std::max(highest, state.heat.temperature[node]);
+    }
     if (!distortion.empty()) farthest = std::max(farthest, distortion.length(node));
   }
-  row.lowest = parallel::global_min(lowest);
-  row.highest = parallel::global_max(highest);
+  if (phases.heat != nullptr) {
+    row.lowest = parallel::global_min(lowest);
+    row.highest = parallel::global_max(highest);
+  }
   if (!distortion.empty()) row.distortion = parallel::global_max(farthest);
   if (phases.mechanics != nullptr) add_stress(mesh, phases.mechanics->bodies().kind, fields, counts, row);
   return row;
@@ -248,9 +257,9 @@ Json json(const StageAnswers& stages) {
     json.add("name", stages.name(row))
         .add("stage", row.stage)
         .add("cycle", row.cycle)
-        .add("end[s]", row.time)
-        .add("lowest_temperature[K]", row.lowest)
-        .add("highest_temperature[K]", row.highest);
+        .add("end[s]", row.time);
+    if (row.has_temperatures())
+      json.add("lowest_temperature[K]", row.lowest).add("highest_temperature[K]", row.highest);
     if (row.stress)
       json.add("largest_von_mises[Pa]", *row.stress).add("mean_von_mises[Pa]", *row.mean_stress);
     if (row.distortion) json.add("largest_distortion[m]", *row.distortion);

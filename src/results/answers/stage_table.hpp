@@ -27,9 +27,10 @@ struct CastBody;
 struct StageRow {
   int stage = 0, cycle = 0;                   ///< as in coupling::StepRecord
   double time = 0;                            ///< [s]
-  double lowest = 0, highest = 0;             ///< temperature [K]
+  double lowest = 0, highest = 0;             ///< temperature [K]; zero of a run without heat
   std::optional<double> stress, mean_stress;  ///< von Mises, the largest and the mean by volume [Pa]
   std::optional<double> distortion;           ///< the largest [m]; absent where nothing follows it
+  bool has_temperatures() const { return highest > 0; }
 };
 
 /// The row of a state at the end of a stage. Collective.

@@ -9,8 +9,8 @@ interface Stage {
   name: string;
   cycle: number;
   "end[s]": number;
-  "lowest_temperature[K]": number;
-  "highest_temperature[K]": number;
+  "lowest_temperature[K]"?: number;
+  "highest_temperature[K]"?: number;
   "largest_von_mises[Pa]"?: number;
   "mean_von_mises[Pa]"?: number;
   "largest_distortion[m]"?: number;
@@ -26,7 +26,9 @@ function stages(run: Run, bench: Workbench): Content[] {
     byId("view").scrollIntoView({ behavior: "smooth" });
   } }, duration(at)) : duration(at));
   const degrees = (stage: Stage) => {
-    const [low, high] = [stage["lowest_temperature[K]"], stage["highest_temperature[K]"]].map((kelvin) => short(kelvin - 273.15));
+    const [coldest, hottest] = [stage["lowest_temperature[K]"], stage["highest_temperature[K]"]];
+    if (coldest === undefined || hottest === undefined) return "–";
+    const [low, high] = [coldest, hottest].map((kelvin) => short(kelvin - 273.15));
     return `${low === high ? low : `${low} to ${high}`} °C`;
   };
   const cycles = all.some((stage) => stage.cycle > 0);
